@@ -273,7 +273,7 @@ fn unpack(row: PackedRow) -> Result<(KeptCase, SceneCloud), CaseError> {
 
 impl ResultRow {
     fn of(result: CaseResult, inspection: &Inspection) -> Self {
-        let judgement = result.judgement().words();
+        let judgement = result.judgement().to_string();
         let CaseResult {
             name,
             difficulty,
@@ -290,7 +290,7 @@ impl ResultRow {
             difficulty,
             truth: Some(kind_of(&truth).to_owned()),
             truth_part: truth.part().map(str::to_owned),
-            judgement: Some(judgement.to_owned()),
+            judgement: Some(judgement),
             part: found.part,
             score: found.score,
             margin: found.margin,

@@ -19,6 +19,7 @@ use geometry::{
 };
 use records::report::SCHEMA;
 use stages::pose::{CloudRole, PoseError, PoseEstimate, PoseMethod, PoseWarning, align};
+use texts::Message;
 
 /// Align one cloud with another and print the rotation and translation
 #[derive(Debug, Args)]
@@ -177,7 +178,10 @@ fn paths_meant(args: &AlignArgs, error: PoseError) -> String {
             which: CloudRole::Target,
             ..
         } => target.to_string(),
-        _ => format!("{source} onto {target}"),
+        _ => Message::new("pose-onto")
+            .with("source", &*source.to_string())
+            .with("target", &*target.to_string())
+            .to_string(),
     }
 }
 
@@ -217,7 +221,7 @@ fn show(pose: &PoseEstimate, time_ms: f64, console: &mut Console) {
         format!(
             "{}, {} after {} iterations, {time_ms:.1} ms",
             pose.method.name(),
-            pose.stopped.name().replace('_', " "),
+            pose.stopped,
             pose.iterations.len()
         ),
     );

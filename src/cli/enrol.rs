@@ -112,7 +112,7 @@ pub(super) fn run(mut args: EnrolArgs, console: &mut Console) -> anyhow::Result<
     console.line(&format_args!(
         "Enrolled {}{of} from {}, seen from {}: {} points, outline of {:.0} mm, openings: {}",
         args.name,
-        part.meta.enrolled.how.describe(),
+        part.meta.enrolled.how,
         seen_from(part.meta.coverage),
         part.cloud.points.len(),
         part.signature.perimeter_m * 1000.0,

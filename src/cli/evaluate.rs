@@ -14,8 +14,8 @@ use super::{
 use geometry::parallel::num_cores;
 use records::{
     cases::{
-        CaseChange, CaseFolder, CaseJudge, CaseOutcome, Changes, EarlierRun, Evaluation,
-        FoundVerdict, RecipeRecord, evaluate,
+        CaseChange, CaseFolder, CaseJudge, Changes, EarlierRun, Evaluation, FoundVerdict,
+        RecipeRecord, evaluate,
     },
     report::{EvaluationReport, evaluation_picture, write_png},
 };
@@ -175,7 +175,7 @@ fn show_changes(changes: &Changes, console: &mut Console) {
     ));
     for (word, list) in [("worse", regressions), ("better", mends)] {
         for change in list {
-            let [was, is] = change.judgements.map(CaseOutcome::words);
+            let [was, is] = change.judgements;
             console.line(&format_args!(
                 "  {word}: {}, it is {}: {was} before ({}), {is} now ({})",
                 change.name,

@@ -43,7 +43,7 @@ impl ExpectChoice {
         match recipe.expected_or_own(given, rack, is_enrolled) {
             Ok(expected) => Ok(recipe.expecting(expected)),
             Err(error) => Err(advised_error(
-                format!("recipe {}: {error}", recipe.label.name),
+                error.of_recipe(&recipe.label.name).to_string(),
                 error.advice(),
             )),
         }

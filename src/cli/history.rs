@@ -28,6 +28,7 @@ use records::history::{
     Summary, Traceability, VerdictFilter,
 };
 use stages::reference::ReferenceParams;
+use texts::Message;
 
 /// List, show and export past inspections, made here or in the window
 #[derive(Debug, Args)]
@@ -445,10 +446,10 @@ fn cells(row: &Summary) -> [String; 10] {
     [
         row.number.to_string(),
         here(row.at),
-        row.verdict.title().to_lowercase(),
+        row.verdict.to_string().to_lowercase(),
         match (&row.part, row.mirror_of()) {
             (Some(part), _) => part.clone(),
-            (None, Some(part)) => format!("mirror image of {part}"),
+            (None, Some(part)) => Message::new("mirror-image").with("part", part).to_string(),
             (None, None) => "-".into(),
         },
         row.score
@@ -486,7 +487,7 @@ fn keep(history: &mut History, asked: &KeepArgs, console: &mut Console) -> anyho
         KeepFrames::NotAccepted => {
             format!("not accepted, and the newest {ACCEPTED_KEPT} accepted")
         }
-        keep => keep.title().to_lowercase(),
+        keep => keep.to_string().to_lowercase(),
     };
     console.line(&format_args!(
         "frames kept: {kept}, at most {} days and {} GB",

@@ -24,6 +24,7 @@ use records::cases::CaseFolder;
 use robot::{Convention, WrittenPose, parse_nozzle, parse_written_pose};
 use stages::scene::{EmptyCell, SceneCloud, cloud_of, scene_from_image};
 use station::CameraScenes;
+use texts::Message;
 
 /// Why a command cannot use a file.
 #[derive(Debug, thiserror::Error)]
@@ -32,8 +33,12 @@ pub enum InputError {
     File(#[from] FileError),
     #[error(transparent)]
     Capture(#[from] CaptureError),
-    #[error("{path}: the mesh has no area")]
+    #[error("{}", no_area(path))]
     EmptyMesh { path: String },
+}
+
+fn no_area(path: &str) -> Message {
+    Message::new("mesh-no-area").with("path", path)
 }
 
 impl Advice for InputError {
@@ -44,7 +49,7 @@ impl Advice for InputError {
                 FileAdvice(&FileWarning::CaptureWithFaces.into()).advice()
             }
             Self::Capture(error) => error.advice(),
-            Self::EmptyMesh { .. } => "Export the mesh again with its faces".into(),
+            Self::EmptyMesh { path } => no_area(path).command_advice(),
         }
     }
 }

@@ -16,6 +16,7 @@ use inspection::library::{
     PartNaming, PartNumbers, SharedTitle, StoredPart,
 };
 use stages::reference::{Coverage, ReferenceParams};
+use texts::Message;
 
 /// List, show, check, rename, remove and restore enrolled parts, and store their spray paths
 #[derive(Debug, Args)]
@@ -217,7 +218,7 @@ fn show(choice: &LibraryChoice, name: &PartName, console: &mut Console) -> anyho
         format!(
             "{} ({})",
             marked_simulated(&meta.enrolled.from, meta.simulated),
-            meta.enrolled.how.describe()
+            meta.enrolled.how
         ),
     );
     row(
@@ -324,7 +325,11 @@ fn rename(
     };
     let renamed = folder.rename(name, &words).advised()?;
     if words.name != *name {
-        console.line(&format_args!("Renamed {name} to {}", words.name));
+        console.line(
+            &Message::new("renamed")
+                .with("before", name.as_str())
+                .with("now", words.name.as_str()),
+        );
     } else if to.is_some() {
         console.line(&format_args!("{name} already has this name"));
     }

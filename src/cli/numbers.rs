@@ -10,6 +10,7 @@ use inspection::library::{GivenNumbers, LibraryLoad, LibraryPlace, PartNumbers};
 use robot::{Convention, spray::off_the_part};
 use serve::PoseKind;
 use station::NumberedPart;
+use texts::Message;
 
 /// The numbers of poses and parts.
 #[derive(Debug, Default, PartialEq, Eq, Args)]
@@ -115,9 +116,7 @@ fn numbers_of(place: &LibraryPlace, console: &Console) -> anyhow::Result<PartNum
     let GivenNumbers { numbers, unstored } = place.give_numbers().advised()?;
     if let Some(error) = unstored {
         console.warn(
-            &format_args!(
-                "numbers of parts cannot be stored, and change when a part is added or removed: {error}"
-            ),
+            &Message::new("numbers-not-stored").with("reason", &*error.to_string()),
             &error,
         );
     }

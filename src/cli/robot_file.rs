@@ -10,6 +10,7 @@ use station::{
     Doubt, Inspected,
     robot_file::{RobotFile, RobotFileContent, RobotFileError, WrittenRobotFile},
 };
+use texts::Message;
 
 /// Writes the file and prints what it contains, which doubts it was written despite, and what was not checked. Returns
 /// `None` if there are doubts and it is not forced.
@@ -48,7 +49,8 @@ pub(super) fn write(
         console.note(&format_args!("warning: written by --force: {doubt}"));
     }
     for unchecked in &written.unchecked {
-        console.warn(&format_args!("not checked: {unchecked}"), unchecked);
+        let what = Message::new("not-checked").with("what", &*unchecked.to_string());
+        console.warn(&what, unchecked);
     }
     Ok(Some(written))
 }

@@ -4,6 +4,7 @@ mod output;
 
 use std::{
     collections::BTreeMap,
+    fmt::Display,
     ops::ControlFlow,
     path::{Path, PathBuf},
     time::SystemTime,
@@ -23,6 +24,7 @@ use stages::{
     scan::{FusedCloud, Scan, ScanParams, Unwatched, assemble_all},
     segment::SegmentParams,
 };
+use texts::Message;
 
 /// Where the camera was for each frame of a scan.
 #[derive(Debug, Args)]
@@ -108,6 +110,12 @@ pub(super) fn run(args: &ScanArgs, console: &mut Console) -> anyhow::Result<Outc
     Ok(Outcome::accepted_if(all_used && has_part))
 }
 
+fn left_out(name: &str, why: &dyn Display) -> Message {
+    Message::new("left-out")
+        .with("name", name)
+        .with("why", &*why.to_string())
+}
+
 /// Reads frames with their poses and fuses them, each segmented with these parameters; warns of frames left out and of frames
 /// that fit poorly. Also returns when the first of the frames was captured.
 pub(super) fn open_scan(
@@ -127,10 +135,9 @@ pub(super) fn open_scan(
                 }
                 console.done();
             }
-            FrameNews::Skipped(skipped) => console.warn(
-                &format_args!("{} is left out: {}", skipped.name, skipped.error),
-                &*skipped.error,
-            ),
+            FrameNews::Skipped(skipped) => {
+                console.warn(&left_out(&skipped.name, &*skipped.error), &*skipped.error);
+            }
         }
         ControlFlow::Continue(())
     })
@@ -146,7 +153,7 @@ pub(super) fn open_scan(
     console.end_progress();
     for shot in &scan.shots {
         if let Some(why) = &shot.excluded {
-            console.warn(&format_args!("{} is left out: {why}", shot.name), why);
+            console.warn(&left_out(&shot.name, why), why);
         }
     }
     if let Some(doubt) = &scan.doubt {

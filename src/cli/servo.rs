@@ -27,6 +27,7 @@ use station::servoing::{
     RealRobot, RobotAddress, ServoJob, ServoNews, ServoOrder, ServoOutcome, check_source,
     reference_of, servo_real, servo_simulated,
 };
+use texts::Message;
 
 /// Move a robot until the part stands where it should in front of the camera
 #[derive(Debug, Args)]
@@ -198,7 +199,7 @@ fn show_news(news: Option<ServoNews>, args: &ServoArgs, console: &mut Console) {
             console.advise(&format_args!("{name}: {reason}"), &reason.advice());
         }
         Some(ServoNews::Begins { robot, .. }) if args.robot.is_some() => {
-            console.note(&format_args!("Waiting for the robot: {robot}"));
+            console.note(&Message::new("servo-waits-for-robot").with("robot", &*robot.to_string()));
         }
         None | Some(ServoNews::Begins { .. }) => {}
         Some(ServoNews::Camera(error)) => console.warn(&error, &*error),

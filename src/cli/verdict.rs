@@ -12,6 +12,7 @@ use inspection::{
 };
 use stages::pose::{Stopped, Uncertainty};
 use station::Inspected;
+use texts::Message;
 
 /// Returns the part's position, the middle of its reference's extent (x, y, z in mm), and its rotation (rx, ry, rz in
 /// degrees).
@@ -77,7 +78,9 @@ fn bounds_in_words(bounds: &Uncertainty) -> String {
 fn what_it_is(verdict: &Verdict, part: &str, rejected: Option<&Rejection>) -> String {
     match rejected {
         Some(Rejection::Mirrored { part, .. } | Rejection::MirroredImage { part, .. }) => {
-            format!("mirror image of {part}")
+            Message::new("mirror-image")
+                .with("part", part.as_str())
+                .to_string()
         }
         Some(Rejection::OtherHalf { part, .. }) => {
             format!("mirror image of the enrolled piece of {part}")

@@ -24,16 +24,12 @@ align-source-hint = Die Punktwolke oder das Netz, das bewegt wird
 align-target-hint = Die Punktwolke oder das Netz, das stehen bleibt
 align-custom-start = eigener Start
 align-random-start = zufälliger Start { $seed }
-align-onto = { $source } auf { $target }
 align-from = { $part } · { $start }
 align-library-has-no-part = Die Bibliothek hat kein Teil: eines unter „Einlernen“ einlernen
 align-nothing-inspected = Noch nichts geprüft: „Aufnehmen“ drücken
 align-no-part-in-scene = In der Szene wurde kein Teil gefunden: eine andere aufnehmen
 align-choose-source = Die Datei wählen, die bewegt wird: Quelle…
 align-choose-target = Die Datei wählen, die stehen bleibt: Ziel…
-align-part-gone = die Bibliothek hat kein Teil { $name }
-align-mesh-no-area = { $path }: Das Netz hat keine Fläche
-align-mesh-no-area-advice = Das Netz mit seinen Flächen erneut exportieren
 
 ## The views
 align-view-of = 3D-Ansicht, { $method }

@@ -48,8 +48,6 @@ enrol-reference-choice = Referenz von: { $part }
 enrol-reference-of-hint = Eine weitere Ansicht oder Variante eines eingelernten Teils: Als Ergebnis wird jenes Teil genannt
 enrol-namesake = { $part } hat diesen Namen bereits
 enrol-namesake-advice = Speichern ersetzt das Teil; die vorige Version lässt sich wiederherstellen
-enrol-shared-title = { $part } hat ebenfalls den Titel „{ $title }“
-enrol-shared-title-advice = Einen anderen Titel wählen: Ergebnisse und Listen unterscheiden Teile danach
 enrol-most-similar = Am ähnlichsten: { $part } (zu { $percent } % gleich)
 enrol-most-similar-mirrored = Am ähnlichsten: { $part } (gespiegelt zu { $percent } % gleich)
 enrol-distinguishable = Die beiden sind unterscheidbar
@@ -72,10 +70,6 @@ enrol-origin-simulated = simuliert, nicht von einer Kamera
 enrol-origin-seen = von einer Kamera aufgenommen
 enrol-origin-path = Lackierbahn mit { $count } Punkten
 enrol-origin-number = Nummer für Roboter: { $number }
-enrol-method-segmented = Teil in einer aufgenommenen Szene
-enrol-method-whole = ganze Punktwolke
-enrol-method-mesh = Netz
-enrol-method-scan = Scan
 
 ## The strip of enrolled parts
 enrol-enrolled-parts = Eingelernte Teile
@@ -87,7 +81,6 @@ enrol-num-parts =
        *[other] { $count } eingelernte Teile
     }
 enrol-damaged = Beschädigt
-enrol-simulated = Simuliert
 enrol-tile-reference = Ref. von { $part }
 enrol-enrolled = Eingelernt: { $part }
 enrol-just-renamed = Soeben umbenannt
@@ -178,7 +171,6 @@ enrol-saved = { $part } gespeichert
 enrol-saved-over = { $part } gespeichert; die vorige Version liegt im Papierkorb der Bibliothek
 enrol-saved-over-path = { $part } gespeichert; die vorige Version liegt mit ihrer Lackierbahn im Papierkorb der Bibliothek: eine Bahn für das neue Koordinatensystem speichern
 enrol-title-changed = Titel von { $part } geändert
-enrol-renamed = { $before } in { $now } umbenannt
 enrol-removed = { $part } entfernt
 enrol-brought-back = { $part } wiederhergestellt
 enrol-stored-path = Lackierbahn mit { $count } Punkten zu { $part } gespeichert

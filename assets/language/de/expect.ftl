@@ -16,7 +16,6 @@ expect-close-orders = Tabelle schließen
 expect-table = Auftragstabelle
 expect-table-used = Was erwartet wird, steht in { $file }
 expect-table-unusable = Die Auftragstabelle ist nicht verwendbar: { $error }
-expect-recipe-unusable = Rezept { $recipe }: { $error }
 expect-reading = Die Auftragstabelle { $file } wird gelesen
 expect-watching = Auftragstabelle wird beobachtet
 

@@ -26,11 +26,9 @@ history-frames-button-hint = Welche Bilder wie lange aufbewahrt werden
 history-find = Suchen
 history-find-hint = Teil, Serien-Nr., Szene
 history-filter-days = Tage
-history-filter-verdict = Ergebnis
 history-filter-all-verdicts = Alle
 history-filter-all-parts = Alle
 history-days-all = Alle Tage
-history-days-today = Heute
 history-days-week = 7 Tage
 history-days-month = 30 Tage
 history-days-typed = Von … bis
@@ -45,7 +43,6 @@ history-choose = Prüfung auswählen, um mehr zu sehen
 history-inspection = Prüfung { $number }
 history-no-picture = Die Szene hat keine Zeilen und Spalten, daher gibt es kein Bild
 history-picture = Segmentierung der Prüfung { $number }
-history-simulated = Simuliert, nicht von einer Kamera
 history-of-part = Prüfungen dieses Teils
 history-counts = zählt
 history-of-this-part = Dieses Teil: Prüfung { $number }, { $verdict }
@@ -177,7 +174,6 @@ history-swept =
        *[other] { $count } Bilder
     }, { $megabytes } MB, aus dem Verlauf entfernt
 history-inspecting-again = { $scene } wird erneut geprüft
-history-opening = { $scene } wird geöffnet
 history-other-version = Das Rezept von { $scene } stammt von einer anderen Version von Partsight
 history-other-version-advice = „Erneut prüfen“ drücken, um das aktuelle Rezept zu verwenden
 history-changed-frame = Datei oder Bild

@@ -12,7 +12,6 @@ live-recorded = { $num ->
     }
 live-playing = Wiedergabe
 live-watching = Ordner
-live-is = { $name } · { $what }
 live-lost = getrennt, neuer Versuch
 live-opening = wird geöffnet
 live-file-is-part = jede Datei ist ein Teil
@@ -36,7 +35,6 @@ live-scan-cannot = Ein Scan kann nicht verfolgt werden: Er ändert sich nicht
 live-file-cannot = Eine einzelne Datei kann nicht verfolgt werden: Sie ändert sich nicht
 live-cannot-advice = Im Quellenmenü eine Kamera, eine Aufzeichnung oder einen Ordner wählen
 live-closing = Kamera wird geschlossen
-live-no-more-frames = { $source } hat keine weiteren Bilder
 live-inspects-each = Jede Aufnahme im Ordner wird geprüft, sobald sie gespeichert ist
 live-ended = Live ist beendet: es wurde ein Bild aufgenommen
 live-ended-past = Live ist beendet: eine frühere Prüfung wurde geöffnet oder wiederholt

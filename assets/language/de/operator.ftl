@@ -80,5 +80,3 @@ operator-robots-without-frames = Roboter bekommen keine Bilder: Live drücken
 operator-robots-without-source = Roboter bekommen keine Bilder: Den Einrichter bitten, eine Kamera zu wählen
 operator-not-recorded = Nicht gespeichert
 operator-not-recorded-says = Der Verlauf ist nicht beschreibbar: den Einrichter rufen. Bis dahin sind Prüfungen nur im Arbeitsspeicher
-operator-order = Auftrag
-operator-operator = Bediener

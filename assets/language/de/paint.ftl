@@ -7,7 +7,6 @@ paint-recognised-gone = Das zuletzt erkannte Teil ist nicht mehr eingelernt: das
 paint-within = { $share } % innerhalb { $target } ± { $tolerance } µm
 paint-side-none = Zu lackierende Seite wählen
 paint-side-hint = Die Seite, die die Pistole lackiert, von einer Kamera vor dem Teil aus gesehen; wird mit dem Teil gespeichert
-paint-side-unclear = Es ist nicht klar, welche Seite des Teils die Außenseite ist
 paint-side-unclear-advice = Oben wählen, von welcher Seite es lackiert wird
 paint-scope-one-side = Auf der Seite, die die Kamera beim Einlernen sah
 paint-scope-all-around = Auf dieser Seite; das Teil ist rundum bekannt

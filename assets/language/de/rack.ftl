@@ -11,7 +11,6 @@ rack-saving = Gestell wird gespeichert
 rack-saved = Das Gestell wurde in { $path } gespeichert
 rack-not-used = Bitte berichtigen; bis dahin gilt das Gestell vor dieser Änderung
 rack-frame = Koordinaten
-rack-in-camera = Kamera
 rack-needs-calibration = Zuerst die Zelle kalibrieren (B)
 rack-volume = Arbeitsraum
 rack-volume-says = Außerhalb dieser Quader wird nichts betrachtet

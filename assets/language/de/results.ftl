@@ -2,26 +2,14 @@
 
 ## Verdicts
 
-results-accepted = Akzeptiert
-results-not-accepted = Nicht akzeptiert
-results-unknown = Unbekannt
-results-no-part = Kein Teil
 results-recipe-as-in-the-paper = Wie im Artikel
 results-recipe-modified = { $name } (geändert)
 results-title-not-recognised = Nicht erkannt · am nächsten { $part }
 results-title-refused = { $part } · nicht akzeptiert
 results-title-unknown = Unbekannt · am nächsten { $part }
-results-title-mirrored = Spiegelbild von { $part }
-results-keep-all = Alle
-results-keep-not-accepted = Nicht akzeptierte
-results-keep-none = Keine
 
 ## Poses
 
-results-converged = konvergiert
-results-below-target = unter Zielwert
-results-iteration-limit = Iterationsgrenze
-results-no-progress = kein Fortschritt
 
 ## The simulated cell
 
@@ -40,6 +28,7 @@ results-group-segmentation = Segmentierung
 results-group-binary-image = Binärbild
 results-group-contour = Kontur und Strahlen
 results-group-match = Vergleich
+results-group-pose = Pose
 results-group-icp-ga = ICP-GA
 results-group-acceptance = Akzeptanz
 results-group-stand-off = Düsenabstand

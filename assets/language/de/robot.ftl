@@ -148,8 +148,6 @@ robot-change-poses-not = So lassen
 robot-no-address = „{ $text }“ ist kein Port und keine IP-Adresse mit Port
 robot-no-address-advice = Einen Port von 1 bis 65535 angeben, oder dazu die Adresse der Netzwerkkarte dieses Rechners, etwa 192.168.1.10:30100
 robot-other-convention = Eine andere Konvention wählen
-robot-open-to-network = { $at } ist ohne Verschlüsselung vom Netzwerk erreichbar: Wer es erreicht, kann Prüfungen auslösen und Posen lesen
-robot-open-to-network-advice = Ein eigenes Netzwerk der Zelle verwenden und in der Firewall nur Roboter und SPS zu diesem Port durchlassen
 robot-turn-on = Einschalten
 robot-turn-off = Ausschalten
 robot-calibrate-first = Zuerst kalibrieren: Sonst gibt es keine Pose
@@ -174,10 +172,8 @@ robot-answer-number = Nr. { $number }
 robot-answer-age = Bild { $age } ms alt
 robot-answer-motion-unchecked = nicht geprüft, ob sich das Teil bewegt
 robot-part-numbers = Nummern der Teile
-robot-numbers-not-stored = Nummern von Teilen können nicht gespeichert werden und ändern sich, wenn ein Teil hinzukommt oder wegfällt: { $reason }
 
 ## Poses and conventions
 robot-motion-unknown = Nicht bekannt, ob das Teil still hing
 
 ## Was nicht geprüft wurde
-robot-not-checked = Nicht geprüft: { $what }

@@ -255,7 +255,6 @@ shell-does-resize = Diesen Rahmen vergrößern oder verkleinern
 
 shell-every-part = Alle Teile der Reihe nach
 shell-not-enrolled = Nicht eingelernt: { $what }
-shell-simulated-frame = Simuliertes Bild { $number }
 shell-of-simulator = { $name }, simuliert
 shell-gone = { $path } existiert nicht mehr
 shell-gone-advice = Stattdessen wird die simulierte Zelle verwendet
@@ -279,7 +278,6 @@ shell-about-scene = { $scene }: { $what }
 
 ## Words of several areas
 
-shell-scene = Szene
 shell-view = Ansicht
 shell-part = Teil
 shell-no-part = keines
@@ -289,7 +287,6 @@ shell-notes-hint = Alles Wissenswerte
 shell-reset = Zurücksetzen
 shell-wait = Einen Moment warten
 shell-apply = Übernehmen
-shell-score = Score
 shell-pose = Pose
 shell-robot-base = Roboterbasis
 shell-store = Speichern

@@ -24,16 +24,12 @@ align-source-hint = The cloud or mesh that is moved
 align-target-hint = The cloud or mesh that stays
 align-custom-start = custom start
 align-random-start = random start { $seed }
-align-onto = { $source } onto { $target }
 align-from = { $part } from { $start }
 align-library-has-no-part = The library has no part: enrol one in the Enrol workspace
 align-nothing-inspected = Nothing inspected yet: press Capture
 align-no-part-in-scene = No part was found in the scene: capture another
 align-choose-source = Choose the file that is moved: Source…
 align-choose-target = Choose the file that stays: Target…
-align-part-gone = the library has no part { $name }
-align-mesh-no-area = { $path }: the mesh has no area
-align-mesh-no-area-advice = Export the mesh again with its faces
 
 ## The views
 align-view-of = 3-D view, { $method }

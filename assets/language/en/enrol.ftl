@@ -48,8 +48,6 @@ enrol-reference-choice = Reference of: { $part }
 enrol-reference-of-hint = Another view or model of a part that is enrolled: verdicts name that part
 enrol-namesake = { $part } has this name already
 enrol-namesake-advice = Saving replaces it; the previous version can be restored
-enrol-shared-title = { $part } has the title "{ $title }" too
-enrol-shared-title-advice = Choose another title: verdicts and lists tell parts apart by it
 enrol-most-similar = Most similar: { $part } ({ $percent } % alike)
 enrol-most-similar-mirrored = Most similar: { $part } (its mirror image { $percent } % alike)
 enrol-distinguishable = The two can be told apart
@@ -72,10 +70,6 @@ enrol-origin-simulated = simulated, not from a camera
 enrol-origin-seen = seen by a camera
 enrol-origin-path = spray path of { $count } points
 enrol-origin-number = number for robots: { $number }
-enrol-method-segmented = the part found in a captured scene
-enrol-method-whole = a whole cloud
-enrol-method-mesh = a mesh
-enrol-method-scan = a scan
 
 ## The strip of enrolled parts
 enrol-enrolled-parts = Enrolled parts
@@ -87,7 +81,6 @@ enrol-num-parts =
        *[other] { $count } enrolled parts
     }
 enrol-damaged = Damaged
-enrol-simulated = Simulated
 enrol-tile-reference = Ref. of { $part }
 enrol-enrolled = Enrolled: { $part }
 enrol-just-renamed = Just renamed
@@ -178,7 +171,6 @@ enrol-saved = Saved { $part }
 enrol-saved-over = Saved { $part }; the previous version is kept in the library's trash
 enrol-saved-over-path = Saved { $part }; the previous version is kept in the library's trash, and its spray path with it: store one for the new frame
 enrol-title-changed = Changed the title of { $part }
-enrol-renamed = Renamed { $before } to { $now }
 enrol-removed = Removed { $part }
 enrol-brought-back = Brought back { $part }
 enrol-stored-path = Stored a spray path of { $count } points with { $part }

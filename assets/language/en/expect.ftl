@@ -16,7 +16,6 @@ expect-close-orders = Close the table
 expect-table = Table of orders
 expect-table-used = What is expected follows from { $file }
 expect-table-unusable = The table of orders cannot be used: { $error }
-expect-recipe-unusable = Recipe { $recipe }: { $error }
 expect-reading = Reading the table of orders { $file }
 expect-watching = Watching the table of orders
 

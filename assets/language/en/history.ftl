@@ -26,11 +26,9 @@ history-frames-button-hint = Which frames are kept, and how long
 history-find = Find
 history-find-hint = Part, serial, scene
 history-filter-days = Days
-history-filter-verdict = Verdict
 history-filter-all-verdicts = All
 history-filter-all-parts = All
 history-days-all = All days
-history-days-today = Today
 history-days-week = 7 days
 history-days-month = 30 days
 history-days-typed = From … to
@@ -45,7 +43,6 @@ history-choose = Choose an inspection to see more of it
 history-inspection = Inspection { $number }
 history-no-picture = Its scene has no rows and columns, so there is no picture of it
 history-picture = Segmentation of inspection { $number }
-history-simulated = Simulated, not from a camera
 history-of-part = Inspections of this part
 history-counts = counts
 history-of-this-part = Of this part: inspection { $number }, { $verdict }
@@ -177,7 +174,6 @@ history-swept =
        *[other] { $count } frames
     }, { $megabytes } MB, from the history
 history-inspecting-again = Inspecting { $scene } again
-history-opening = Opening { $scene }
 history-other-version = The recipe of { $scene } was written by another version of Partsight
 history-other-version-advice = Press Inspect again to use the current recipe
 history-changed-frame = its file or frame

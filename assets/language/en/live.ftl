@@ -12,7 +12,6 @@ live-recorded = { $num ->
     }
 live-playing = Playing
 live-watching = Watching
-live-is = { $name } · { $what }
 live-lost = lost, reconnecting
 live-opening = opening
 live-file-is-part = each file is a part
@@ -36,7 +35,6 @@ live-scan-cannot = A scan cannot be followed: it does not change
 live-file-cannot = A single file cannot be followed: it does not change
 live-cannot-advice = Choose a camera, a recording or a folder in the source menu
 live-closing = Closing the camera
-live-no-more-frames = { $source } has no more frames
 live-inspects-each = Each capture in the folder is inspected as soon as it is saved
 live-ended = Live stopped: one frame was captured
 live-ended-past = Live stopped: a past inspection was opened or repeated

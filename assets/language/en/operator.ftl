@@ -80,5 +80,3 @@ operator-robots-without-frames = Robots get no frames: press Live
 operator-robots-without-source = Robots get no frames: ask the engineer to choose a camera
 operator-not-recorded = Not recorded
 operator-not-recorded-says = The history cannot be written: ask the engineer. Until then inspections are kept in memory only
-operator-order = Order
-operator-operator = Operator

@@ -7,7 +7,6 @@ paint-recognised-gone = The part recognised last is no longer enrolled: choose t
 paint-within = { $share } % within { $target } ± { $tolerance } µm
 paint-side-none = Choose the side to be painted
 paint-side-hint = The side that the gun paints, as seen by a camera in front of the part; stored with the part
-paint-side-unclear = It is not clear which side of the part is the outside
 paint-side-unclear-advice = Choose above from which side it is painted
 paint-scope-one-side = Of the side that the camera saw when it was enrolled
 paint-scope-all-around = Of this side; the part is known all around

@@ -11,7 +11,6 @@ rack-saving = Saving the rack
 rack-saved = The rack was saved to { $path }
 rack-not-used = Correct it; until then, the rack before this change is in use
 rack-frame = Coordinates
-rack-in-camera = Camera
 rack-needs-calibration = Calibrate the cell first (B)
 rack-volume = Work volume
 rack-volume-says = Nothing outside these boxes is looked at

@@ -148,8 +148,6 @@ robot-change-poses-not = Leave them as they are
 robot-no-address = "{ $text }" is neither a port nor an IP address with a port
 robot-no-address-advice = Give a port from 1 to 65535, or the address of this computer's network card with it, such as 192.168.1.10:30100
 robot-other-convention = Choose another convention
-robot-open-to-network = { $at } is open to the network without encryption: whoever reaches it can trigger inspections and read poses
-robot-open-to-network-advice = Use a separate network for the cell, and let the firewall admit only the robot and the PLC to this port
 robot-turn-on = Turn on
 robot-turn-off = Turn off
 robot-calibrate-first = Calibrate it first, or no pose can be given
@@ -174,10 +172,8 @@ robot-answer-number = no. { $number }
 robot-answer-age = frame { $age } ms old
 robot-answer-motion-unchecked = not checked whether the part moves
 robot-part-numbers = Numbers of the parts
-robot-numbers-not-stored = Numbers of parts cannot be stored, and change when a part is added or removed: { $reason }
 
 ## Poses and conventions
 robot-motion-unknown = Not known whether the part hung still
 
 ## What was not checked
-robot-not-checked = Not checked: { $what }

@@ -255,7 +255,6 @@ shell-does-resize = Make that box larger or smaller
 
 shell-every-part = Every part in turn
 shell-not-enrolled = Not enrolled: { $what }
-shell-simulated-frame = Simulated frame { $number }
 shell-of-simulator = { $name }, simulated
 shell-gone = { $path } no longer exists
 shell-gone-advice = The simulated cell is used instead
@@ -279,7 +278,6 @@ shell-about-scene = { $scene }: { $what }
 
 ## Words of several areas
 
-shell-scene = Scene
 shell-view = View
 shell-part = Part
 shell-no-part = none
@@ -289,7 +287,6 @@ shell-notes-hint = Anything worth remembering
 shell-reset = Reset
 shell-wait = Wait a moment
 shell-apply = Apply
-shell-score = Score
 shell-pose = Pose
 shell-robot-base = Robot base
 shell-store = Store

@@ -24,16 +24,12 @@ align-source-hint = La nube o malla que se mueve
 align-target-hint = La nube o malla que permanece fija
 align-custom-start = inicio propio
 align-random-start = inicio aleatorio { $seed }
-align-onto = { $source } sobre { $target }
 align-from = { $part } desde { $start }
 align-library-has-no-part = La biblioteca no tiene piezas: registrar una en Registro
 align-nothing-inspected = Todavía no se ha inspeccionado nada: pulsar Capturar
 align-no-part-in-scene = No se encontró ninguna pieza en la escena: capturar otra
 align-choose-source = Elegir el archivo que se mueve: Origen…
 align-choose-target = Elegir el archivo que permanece fijo: Destino…
-align-part-gone = la biblioteca no tiene la pieza { $name }
-align-mesh-no-area = { $path }: la malla no tiene área
-align-mesh-no-area-advice = Exportar de nuevo la malla con sus caras
 
 ## The views
 align-view-of = Vista 3D, { $method }

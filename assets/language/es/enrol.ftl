@@ -48,8 +48,6 @@ enrol-reference-choice = Referencia de: { $part }
 enrol-reference-of-hint = Otra vista u otro modelo de una pieza registrada: los resultados nombran esa pieza
 enrol-namesake = { $part } ya tiene este nombre
 enrol-namesake-advice = Al guardar se sustituye; la versión anterior se puede recuperar
-enrol-shared-title = { $part } también tiene el título «{ $title }»
-enrol-shared-title-advice = Elegir otro título: los resultados y las listas distinguen las piezas por él
 enrol-most-similar = La más parecida: { $part } ({ $percent } % igual)
 enrol-most-similar-mirrored = La más parecida: { $part } (su imagen reflejada, { $percent } % igual)
 enrol-distinguishable = Las dos se pueden distinguir
@@ -72,10 +70,6 @@ enrol-origin-simulated = simulada, no procede de una cámara
 enrol-origin-seen = vista por una cámara
 enrol-origin-path = trayectoria de pintura de { $count } puntos
 enrol-origin-number = número para robots: { $number }
-enrol-method-segmented = pieza hallada en una escena capturada
-enrol-method-whole = nube de puntos entera
-enrol-method-mesh = malla
-enrol-method-scan = escaneo
 
 ## The strip of enrolled parts
 enrol-enrolled-parts = Piezas registradas
@@ -87,7 +81,6 @@ enrol-num-parts =
        *[other] { $count } piezas registradas
     }
 enrol-damaged = Dañada
-enrol-simulated = Simulada
 enrol-tile-reference = Ref. de { $part }
 enrol-enrolled = Registrada: { $part }
 enrol-just-renamed = Recién renombrada
@@ -178,7 +171,6 @@ enrol-saved = { $part }: guardada
 enrol-saved-over = { $part }: guardada; la versión anterior queda en la papelera de la biblioteca
 enrol-saved-over-path = { $part }: guardada; la versión anterior queda en la papelera de la biblioteca junto con su trayectoria de pintura: guardar una para el nuevo sistema de coordenadas
 enrol-title-changed = Título de { $part } cambiado
-enrol-renamed = { $before } se llama ahora { $now }
 enrol-removed = { $part }: eliminada
 enrol-brought-back = { $part }: recuperada
 enrol-stored-path = Trayectoria de pintura de { $count } puntos guardada con { $part }

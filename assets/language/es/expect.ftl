@@ -16,7 +16,6 @@ expect-close-orders = Cerrar la tabla
 expect-table = Tabla de órdenes
 expect-table-used = Lo esperado se toma de { $file }
 expect-table-unusable = No se puede usar la tabla de órdenes: { $error }
-expect-recipe-unusable = Receta { $recipe }: { $error }
 expect-reading = Leyendo la tabla de órdenes { $file }
 expect-watching = Se vigila la tabla de órdenes
 

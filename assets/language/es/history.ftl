@@ -26,11 +26,9 @@ history-frames-button-hint = Qué imágenes se conservan y cuánto tiempo
 history-find = Buscar
 history-find-hint = Pieza, serie, escena
 history-filter-days = Días
-history-filter-verdict = Resultado
 history-filter-all-verdicts = Todos
 history-filter-all-parts = Todas
 history-days-all = Todos los días
-history-days-today = Hoy
 history-days-week = 7 días
 history-days-month = 30 días
 history-days-typed = De … a
@@ -45,7 +43,6 @@ history-choose = Elegir una inspección para ver más detalles
 history-inspection = Inspección { $number }
 history-no-picture = La escena no tiene filas ni columnas, por lo que no hay imagen
 history-picture = Segmentación de la inspección { $number }
-history-simulated = Simulada, no procede de una cámara
 history-of-part = Inspecciones de esta pieza
 history-counts = cuenta
 history-of-this-part = De esta pieza: inspección { $number }, { $verdict }
@@ -177,7 +174,6 @@ history-swept =
        *[other] { $count } imágenes
     }, { $megabytes } MB
 history-inspecting-again = Inspeccionando de nuevo { $scene }
-history-opening = Abriendo { $scene }
 history-other-version = La receta de { $scene } la escribió otra versión de Partsight
 history-other-version-advice = Pulsar Repetir inspección para usar la receta actual
 history-changed-frame = el archivo o la imagen

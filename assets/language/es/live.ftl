@@ -12,7 +12,6 @@ live-recorded = { $num ->
     }
 live-playing = Reproducción
 live-watching = Vigilando
-live-is = { $name } · { $what }
 live-lost = reconectando
 live-opening = abriendo
 live-file-is-part = cada archivo es una pieza
@@ -36,7 +35,6 @@ live-scan-cannot = Un escaneo no se puede seguir: no cambia
 live-file-cannot = Un archivo suelto no se puede seguir: no cambia
 live-cannot-advice = Elegir una cámara, una grabación o una carpeta en el menú de fuentes
 live-closing = Cerrando la cámara
-live-no-more-frames = { $source } no tiene más imágenes
 live-inspects-each = Cada captura de la carpeta se inspecciona en cuanto se guarda
 live-ended = En vivo ha terminado: se capturó una imagen
 live-ended-past = En vivo ha terminado: se abrió o repitió una inspección anterior

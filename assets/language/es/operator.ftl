@@ -80,5 +80,3 @@ operator-robots-without-frames = Los robots no reciben imágenes: pulsar En vivo
 operator-robots-without-source = Los robots no reciben imágenes: pedir al técnico que elija una cámara
 operator-not-recorded = Sin guardar
 operator-not-recorded-says = No se puede escribir el historial: avisar al técnico. Hasta entonces las inspecciones están solo en memoria
-operator-order = Orden
-operator-operator = Operador

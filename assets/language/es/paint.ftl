@@ -7,7 +7,6 @@ paint-recognised-gone = La última pieza reconocida ya no está registrada: eleg
 paint-within = { $share } % dentro de { $target } ± { $tolerance } µm
 paint-side-none = Elegir el lado que se pinta
 paint-side-hint = El lado que pinta la pistola, visto por una cámara delante de la pieza; se guarda con la pieza
-paint-side-unclear = No está claro qué lado de la pieza es el exterior
 paint-side-unclear-advice = Elegir arriba por qué lado se pinta
 paint-scope-one-side = Del lado que vio la cámara al registrarla
 paint-scope-all-around = De este lado; la pieza se conoce por todos los lados

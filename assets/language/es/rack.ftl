@@ -11,7 +11,6 @@ rack-saving = Guardando el bastidor
 rack-saved = El bastidor se guardó en { $path }
 rack-not-used = Corregirlo; hasta entonces vale el bastidor anterior a este cambio
 rack-frame = Coordenadas
-rack-in-camera = Cámara
 rack-needs-calibration = Calibrar antes la celda (B)
 rack-volume = Volumen de trabajo
 rack-volume-says = No se mira nada fuera de estas cajas

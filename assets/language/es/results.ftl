@@ -2,26 +2,14 @@
 
 ## Verdicts
 
-results-accepted = Aceptada
-results-not-accepted = No aceptada
-results-unknown = Desconocida
-results-no-part = Sin pieza
 results-recipe-as-in-the-paper = Como en el artículo
 results-recipe-modified = { $name } (modificada)
 results-title-not-recognised = No reconocida · la más parecida: { $part }
 results-title-refused = { $part } · no aceptada
 results-title-unknown = Desconocida · la más parecida: { $part }
-results-title-mirrored = Imagen reflejada de { $part }
-results-keep-all = Todas
-results-keep-not-accepted = Las no aceptadas
-results-keep-none = Ninguna
 
 ## Poses
 
-results-converged = convergió
-results-below-target = bajo el objetivo
-results-iteration-limit = límite de iteraciones
-results-no-progress = sin avance
 
 ## The simulated cell
 
@@ -40,6 +28,7 @@ results-group-segmentation = Segmentación
 results-group-binary-image = Imagen binaria
 results-group-contour = Contorno y rayos
 results-group-match = Comparación
+results-group-pose = Pose
 results-group-icp-ga = ICP-GA
 results-group-acceptance = Aceptación
 results-group-stand-off = Distancia de boquilla

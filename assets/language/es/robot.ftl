@@ -148,8 +148,6 @@ robot-change-poses-not = Dejar como está
 robot-no-address = "{ $text }" no es un puerto ni una dirección IP con puerto
 robot-no-address-advice = Indicar un puerto de 1 a 65535, o con él la dirección de la tarjeta de red de este equipo, como 192.168.1.10:30100
 robot-other-convention = Elegir otra convención
-robot-open-to-network = { $at } está abierto a la red sin cifrado: quien llegue a él puede iniciar inspecciones y leer poses
-robot-open-to-network-advice = Usar una red propia de la celda y dejar que el cortafuegos solo permita el robot y el PLC en este puerto
 robot-turn-on = Activar
 robot-turn-off = Desactivar
 robot-calibrate-first = Calibrarla primero: sin ello no hay pose
@@ -174,10 +172,8 @@ robot-answer-number = n.º { $number }
 robot-answer-age = imagen de hace { $age } ms
 robot-answer-motion-unchecked = no se ha comprobado si la pieza se mueve
 robot-part-numbers = Números de las piezas
-robot-numbers-not-stored = Los números de las piezas no se pueden guardar y cambian al añadir o quitar una pieza: { $reason }
 
 ## Poses and conventions
 robot-motion-unknown = No se sabe si la pieza colgaba quieta
 
 ## Lo que no se comprobó
-robot-not-checked = Sin comprobar: { $what }

@@ -255,7 +255,6 @@ shell-does-resize = Ampliar o reducir ese recuadro
 
 shell-every-part = Todas las piezas por turno
 shell-not-enrolled = Sin registrar: { $what }
-shell-simulated-frame = Imagen simulada { $number }
 shell-of-simulator = { $name }, simulada
 shell-gone = { $path } ya no existe
 shell-gone-advice = Se usa en su lugar la celda simulada
@@ -279,7 +278,6 @@ shell-about-scene = { $scene }: { $what }
 
 ## Words of several areas
 
-shell-scene = Escena
 shell-view = Vista
 shell-part = Pieza
 shell-no-part = ninguna
@@ -289,7 +287,6 @@ shell-notes-hint = Lo que convenga recordar
 shell-reset = Restablecer
 shell-wait = Esperar un momento
 shell-apply = Aplicar
-shell-score = Puntuación
 shell-pose = Pose
 shell-robot-base = Base del robot
 shell-store = Guardar

@@ -24,16 +24,12 @@ align-source-hint = 被移动的点云或网格
 align-target-hint = 保持不动的点云或网格
 align-custom-start = 自定义起始位姿
 align-random-start = 随机起始位姿 { $seed }
-align-onto = { $source } 到 { $target }
 align-from = { $part } · { $start }
 align-library-has-no-part = 零件库中没有零件：请在“注册”中注册
 align-nothing-inspected = 尚未检测：请按“采集”
 align-no-part-in-scene = 场景中未找到零件：请重新采集
 align-choose-source = 请选择被移动的文件：源…
 align-choose-target = 请选择保持不动的文件：目标…
-align-part-gone = 零件库中没有零件 { $name }
-align-mesh-no-area = { $path }：网格没有面积
-align-mesh-no-area-advice = 请连同面片重新导出网格
 
 ## The views
 align-view-of = 三维视图，{ $method }

@@ -48,8 +48,6 @@ enrol-reference-choice = 参考所属零件：{ $part }
 enrol-reference-of-hint = 已注册零件的另一视图或型号：判定结果显示该零件
 enrol-namesake = { $part } 已使用此名称
 enrol-namesake-advice = 保存将替换它；之前的版本可以恢复
-enrol-shared-title = { $part } 的标题也是“{ $title }”
-enrol-shared-title-advice = 请另选标题：判定结果和列表以标题区分零件
 enrol-most-similar = 最相似：{ $part }（相似度 { $percent } %）
 enrol-most-similar-mirrored = 最相似：{ $part }（镜像相似度 { $percent } %）
 enrol-distinguishable = 两者可以区分
@@ -72,10 +70,6 @@ enrol-origin-simulated = 仿真数据，并非来自相机
 enrol-origin-seen = 由相机采集
 enrol-origin-path = 喷涂轨迹含 { $count } 个点
 enrol-origin-number = 机器人使用的编号：{ $number }
-enrol-method-segmented = 在采集的场景中找到的零件
-enrol-method-whole = 整个点云
-enrol-method-mesh = 网格
-enrol-method-scan = 扫描
 
 ## The strip of enrolled parts
 enrol-enrolled-parts = 已注册零件
@@ -86,7 +80,6 @@ enrol-num-parts =
        *[other] 已注册 { $count } 个零件
     }
 enrol-damaged = 已损坏
-enrol-simulated = 仿真
 enrol-tile-reference = 参考：{ $part }
 enrol-enrolled = 已注册：{ $part }
 enrol-just-renamed = 刚刚重命名
@@ -177,7 +170,6 @@ enrol-saved = 已保存 { $part }
 enrol-saved-over = 已保存 { $part }；之前的版本保留在零件库的回收站中
 enrol-saved-over-path = 已保存 { $part }；之前的版本及其喷涂轨迹保留在零件库的回收站中：请为新坐标系保存喷涂轨迹
 enrol-title-changed = 已更改 { $part } 的标题
-enrol-renamed = 已将 { $before } 重命名为 { $now }
 enrol-removed = 已移除 { $part }
 enrol-brought-back = 已恢复 { $part }
 enrol-stored-path = 已为 { $part } 保存含 { $count } 个点的喷涂轨迹

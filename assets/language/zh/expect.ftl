@@ -16,7 +16,6 @@ expect-close-orders = 关闭订单表
 expect-table = 订单表
 expect-table-used = 预期零件取自 { $file }
 expect-table-unusable = 无法使用订单表：{ $error }
-expect-recipe-unusable = 配方 { $recipe }：{ $error }
 expect-reading = 正在读取订单表 { $file }
 expect-watching = 正在监视订单表
 

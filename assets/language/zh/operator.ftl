@@ -77,5 +77,3 @@ operator-robots-without-frames = 机器人未收到帧：请按“实时”
 operator-robots-without-source = 机器人未收到帧：请工程师选择相机
 operator-not-recorded = 未保存
 operator-not-recorded-says = 无法写入历史：请询问工程师。在此之前检测仅保留在内存中
-operator-order = 订单
-operator-operator = 操作员

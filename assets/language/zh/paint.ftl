@@ -7,7 +7,6 @@ paint-recognised-gone = 上次识别的零件已不再注册：请选择要喷�
 paint-within = { $share } % 在 { $target } ± { $tolerance } µm 内
 paint-side-none = 选择要喷涂的一侧
 paint-side-hint = 喷枪喷涂的一侧，以零件前方的相机视角为准；随零件保存
-paint-side-unclear = 无法确定零件的哪一侧是外侧
 paint-side-unclear-advice = 请在上方选择从哪一侧喷涂
 paint-scope-one-side = 仅限注册时相机看到的一侧
 paint-scope-all-around = 此侧；零件各面均已知

@@ -11,7 +11,6 @@ rack-saving = 正在保存挂架
 rack-saved = 挂架已保存到 { $path }
 rack-not-used = 请更正；在此之前使用更改前的挂架
 rack-frame = 坐标系
-rack-in-camera = 相机
 rack-needs-calibration = 请先标定工位 (B)
 rack-volume = 工作空间
 rack-volume-says = 这些长方体之外的一切都不检查

@@ -2,26 +2,14 @@
 
 ## Verdicts
 
-results-accepted = 已接受
-results-not-accepted = 未接受
-results-unknown = 未知
-results-no-part = 无零件
 results-recipe-as-in-the-paper = 按论文
 results-recipe-modified = { $name }（已修改）
 results-title-not-recognised = 未识别 · 最接近 { $part }
 results-title-refused = { $part } · 未接受
 results-title-unknown = 未知 · 最接近 { $part }
-results-title-mirrored = “{ $part }”的镜像
-results-keep-all = 全部
-results-keep-not-accepted = 未接受的
-results-keep-none = 不保留
 
 ## Poses
 
-results-converged = 已收敛
-results-below-target = 低于目标值
-results-iteration-limit = 达到迭代上限
-results-no-progress = 无进展
 
 ## The simulated cell
 
@@ -40,6 +28,7 @@ results-group-segmentation = 分割
 results-group-binary-image = 二值图像
 results-group-contour = 轮廓与射线
 results-group-match = 匹配
+results-group-pose = 位姿
 results-group-icp-ga = ICP-GA
 results-group-acceptance = 接受条件
 results-group-stand-off = 喷距

@@ -140,8 +140,6 @@ robot-change-poses-not = 保持不变
 robot-no-address = “{ $text }”不是端口，也不是带端口的 IP 地址
 robot-no-address-advice = 输入 1 至 65535 的端口，或加上本机网卡的地址，例如 192.168.1.10:30100
 robot-other-convention = 请选择其他约定
-robot-open-to-network = { $at } 对网络开放且未加密：任何能访问的人都可触发检测并读取位姿
-robot-open-to-network-advice = 请使用工位专用网络，并在防火墙中只允许机器人和 PLC 访问此端口
 robot-turn-on = 打开
 robot-turn-off = 关闭
 robot-calibrate-first = 请先标定：否则无法给出位姿
@@ -166,10 +164,8 @@ robot-answer-number = 第 { $number } 次
 robot-answer-age = 帧龄 { $age } ms
 robot-answer-motion-unchecked = 未检查零件是否移动
 robot-part-numbers = 零件编号
-robot-numbers-not-stored = 零件编号无法保存，添加或移除零件时编号会改变：{ $reason }
 
 ## Poses and conventions
 robot-motion-unknown = 无法得知零件是否静止
 
 ## 未检查的内容
-robot-not-checked = 未检查：{ $what }

@@ -239,7 +239,6 @@ shell-does-resize = 放大或缩小该框
 
 shell-every-part = 依次显示各零件
 shell-not-enrolled = 未注册：{ $what }
-shell-simulated-frame = 仿真帧 { $number }
 shell-of-simulator = { $name }（仿真）
 shell-gone = { $path } 已不存在
 shell-gone-advice = 改用仿真工位
@@ -263,7 +262,6 @@ shell-about-scene = { $scene }：{ $what }
 
 ## Words of several areas
 
-shell-scene = 场景
 shell-view = 视图
 shell-part = 零件
 shell-no-part = 无
@@ -273,7 +271,6 @@ shell-notes-hint = 任何值得记录的内容
 shell-reset = 重置
 shell-wait = 请稍候
 shell-apply = 应用
-shell-score = 得分
 shell-pose = 位姿
 shell-robot-base = 机器人基座
 shell-store = 保存

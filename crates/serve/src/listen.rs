@@ -12,6 +12,7 @@ use thiserror::Error;
 use super::protocol::{Protocol, binary::MAX_NUMBERS};
 use geometry::error::Advice;
 use robot::Convention;
+use texts::{Described, Message};
 
 /// A protocol and the address to listen at, written `ascii=30100` or `eki=192.168.1.10:54600`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -161,18 +162,17 @@ impl Listener {
 
 /// A listener is reachable by other computers without encryption.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
-#[error(
-    "{at} is open to the network without encryption: whoever reaches it can trigger inspections and read poses"
-)]
 pub struct OpenToNetwork {
     at: ListenAddress,
 }
 
-impl Advice for OpenToNetwork {
-    fn advice(&self) -> String {
-        "Use a separate network for the cell, and let the firewall admit only the robot and the PLC to this port".into()
+impl Described for OpenToNetwork {
+    fn message(&self) -> Message {
+        Message::new("open-to-network").with("at", &*self.at.to_string())
     }
 }
+
+texts::display!(OpenToNetwork);
 
 #[cfg(test)]
 mod tests {

@@ -175,6 +175,8 @@ impl Described for Message {
     }
 }
 
+crate::display!(Message);
+
 /// Implements `Display` for [`Described`] types: the message in English.
 #[macro_export]
 macro_rules! display {

@@ -107,7 +107,7 @@ pub(super) fn show(found: &Differences, names: [&str; 2], console: &mut Console)
         let sign = if then == today { "" } else { "changed" };
         table.row([what.to_owned(), then, today, sign.to_owned()]);
     };
-    row("verdict", &|of| of.verdict.title().to_lowercase());
+    row("verdict", &|of| of.verdict.to_string().to_lowercase());
     row("best guess", &|of| {
         of.nearest.clone().unwrap_or_else(|| "-".into())
     });

@@ -282,7 +282,7 @@ fn record_table(from: ReadFrom<'_>, record: &Record) -> Table {
     for (name, text) in summary.trace.known() {
         row(name, text.to_owned());
     }
-    row("verdict", summary.verdict.title().to_lowercase());
+    row("verdict", summary.verdict.to_string().to_lowercase());
     row("part", summary.part.clone().unwrap_or_default());
     row("place", detail.place().unwrap_or_default());
     row("rack", summary.rack.clone().unwrap_or_default());

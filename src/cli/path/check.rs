@@ -30,6 +30,7 @@ use robot::{
 };
 use stages::stand_off::StandOffParams;
 use station::robot_file::Unchecked;
+use texts::Message;
 
 /// Check that an arm reaches the stored path of a part in its standard position without collisions
 #[derive(Debug, Args)]
@@ -187,7 +188,8 @@ fn show(placed: &PlacedArm, found: &PathCheck, console: &mut Console) {
         console.line(&format_args!("  {line}"));
     }
     for unchecked in Unchecked::of_arm(Some(placed)) {
-        console.line(&format_args!("  not checked: {unchecked}"));
+        let what = Message::new("not-checked").with("what", &*unchecked.to_string());
+        console.line(&format_args!("  {what}"));
     }
     for line in problem_lines(&found.points) {
         console.line(&format_args!("  {line}"));

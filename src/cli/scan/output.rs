@@ -6,6 +6,7 @@ use crate::cli::console::{Console, Table};
 use geometry::rigid::row_major;
 use records::report::SCHEMA;
 use stages::scan::{Excluded, FusedCloud, Overlap, Scan, ScannedShot};
+use texts::Message;
 
 /// JSON line of `scan --json`; metres and radians.
 #[derive(Debug, Serialize)]
@@ -104,9 +105,9 @@ pub(super) fn show(scan: &Scan, part: &FusedCloud, console: &mut Console) {
             overlap.map_or_else(|| "-".to_owned(), |o| format!("{:.2}", o.rms.mm()))
         };
         let remark = match &shot.excluded {
-            Some(_) => "LEFT OUT",
-            None if !shot.finds_part => "no part found in it",
-            None => "",
+            Some(_) => "LEFT OUT".to_owned(),
+            None if !shot.finds_part => Message::new("no-part-in-frame").to_string(),
+            None => String::new(),
         };
         table.row([
             shot.name.clone(),
@@ -115,7 +116,7 @@ pub(super) fn show(scan: &Scan, part: &FusedCloud, console: &mut Console) {
             rms(&shot.before),
             rms(&shot.after),
             shot.num_new.to_string(),
-            remark.to_owned(),
+            remark,
         ]);
     }
     console.table(&table);

@@ -22,7 +22,7 @@ use shell::{
     session::{Session, WorkspaceKind},
 };
 use ui::{
-    language::{advised, attribute, described, text},
+    language::{advised, attribute, described, library_text, text},
     theme::{ROUNDING, Theme, font, space},
     widgets::{Mark, focus_ring, grouped, labelled, line_mark, sentence, shortened},
 };
@@ -294,7 +294,7 @@ fn words(ui: &mut Ui, row: &ShotRow, is_taken: bool, units: UnitSystem) {
                 small(ui, alone, theme.weak_text);
             } else {
                 let says = text!("shots-no-part-says");
-                small(ui, text!("shots-no-part"), theme.warning).on_hover_text(says);
+                small(ui, library_text("no-part-in-frame"), theme.warning).on_hover_text(says);
             }
             let moved = text!(
                 "shots-moved",

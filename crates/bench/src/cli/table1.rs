@@ -19,6 +19,7 @@ use stages::{
     pose::{PoseMethod, displacements::DISPLACEMENTS},
     reference::ReferenceParams,
 };
+use texts::Message;
 
 /// The file that `--json` writes.
 #[derive(Debug, Serialize)]
@@ -96,7 +97,9 @@ fn keep_asked_for(library: &mut Library, names: &[String]) -> anyhow::Result<()>
     if let Some(name) = missing {
         let known: Vec<&str> = library.references.iter().map(|r| r.name.as_str()).collect();
         return Err(advised_error(
-            format!("the library has no part {name}"),
+            Message::new("no-such-part")
+                .with("name", name.as_str())
+                .to_string(),
             format!("Choose from: {}", known.join(", ")),
         ));
     }
@@ -136,7 +139,7 @@ fn show(rows: &[Row], console: &mut Console) {
                         found.error.rotation.degrees(),
                         found.error.shift.mm()
                     ),
-                    found.stopped.name().replace('_', " "),
+                    found.stopped.to_string(),
                 ),
                 Err(_) => ("no pose".into(), String::new(), String::new()),
             };

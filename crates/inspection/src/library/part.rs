@@ -14,6 +14,7 @@ use stages::{
     reference::{Coverage, Reference, ReferenceParams, ViewCut},
     signature::{LiteralSignature, SignatureParams},
 };
+use texts::{Described, Message};
 
 /// Newest version of the files; this program also reads older ones.
 pub const SCHEMA_VERSION: u32 = 2;
@@ -183,17 +184,18 @@ pub enum EnrolMethod {
     Scan,
 }
 
-impl EnrolMethod {
-    /// Describes the kind for people.
-    pub fn describe(self) -> &'static str {
-        match self {
-            Self::Segmented => "the part found in a captured scene",
-            Self::WholeCloud => "a whole cloud",
-            Self::Mesh => "a mesh",
-            Self::Scan => "a scan",
-        }
+impl Described for EnrolMethod {
+    fn message(&self) -> Message {
+        Message::new(match self {
+            Self::Segmented => "enrolled-from-segmented",
+            Self::WholeCloud => "enrolled-from-whole-cloud",
+            Self::Mesh => "enrolled-from-mesh",
+            Self::Scan => "enrolled-from-scan",
+        })
     }
 }
+
+texts::display!(EnrolMethod);
 
 /// Content of `signature.json`: the standard view for people and other programs. Rounded to 1 µm and µrad.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -1,11 +1,10 @@
 //! Duplicate titles: people could not tell the verdicts of two such parts apart.
 
 use super::{name::PartName, part::PartMeta};
-use geometry::error::Advice;
+use texts::{Described, Message};
 
 /// Another part of the library has the same title.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{other} has the title \"{title}\" too")]
 pub struct SharedTitle {
     /// The shared title.
     pub title: String,
@@ -13,11 +12,15 @@ pub struct SharedTitle {
     pub other: PartName,
 }
 
-impl Advice for SharedTitle {
-    fn advice(&self) -> String {
-        "Choose another title: verdicts and lists tell parts apart by it".into()
+impl Described for SharedTitle {
+    fn message(&self) -> Message {
+        Message::new("shared-title")
+            .with("other", self.other.as_str())
+            .with("title", &*self.title)
     }
 }
+
+texts::display!(SharedTitle);
 
 impl SharedTitle {
     /// Finds an entry that has the same `title` as the reference `name` of `part`. Case does not matter, references of

@@ -144,6 +144,14 @@ impl Described for ExpectedError {
 
 texts::display!(ExpectedError);
 
+impl ExpectedError {
+    /// The same, of a recipe that expects these parts.
+    pub fn of_recipe(&self, recipe: &str) -> Message {
+        let message = Message::new("expected-recipe").with("recipe", recipe);
+        message.caused_by(self.message())
+    }
+}
+
 impl Expected {
     /// Expects these enrolled parts, up to [`MAX_PARTS`], and up to one at each place of the rack; without one, as for a scan,
     /// wherever they hang.

@@ -31,6 +31,7 @@ use super::{
 use crate::library::PartName;
 use files::{parse_toml, read_text, toml_problem, write_text};
 use stages::{pose::PoseMethod, rack::Rack, rank::Matcher, segment::MAX_PARTS};
+use texts::Message;
 
 /// Name of the built-in recipe, in which every parameter is at its default.
 pub const BUILT_IN: &str = "built-in";
@@ -225,15 +226,13 @@ impl RecipeFile {
     /// The built-in recipe of this name, as if read from a file.
     pub fn built_in_named(name: &PartName) -> Option<Self> {
         let notes = match name.as_str() {
-            AS_IN_THE_PAPER => {
-                "The paper's matcher, and ICP-GA for the pose: for comparison, since it accepts far fewer parts"
-            }
-            _ => "",
+            AS_IN_THE_PAPER => Message::new("recipe-as-in-the-paper").to_string(),
+            _ => String::new(),
         };
         Some(Self {
             recipe: built_in_recipe(name.as_str())?,
             name: name.clone(),
-            notes: notes.to_owned(),
+            notes,
         })
     }
 

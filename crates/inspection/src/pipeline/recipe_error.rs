@@ -9,6 +9,7 @@ use super::{
 use crate::library::BadName;
 use files::{FileError, nearest_name};
 use geometry::error::Advice;
+use texts::Message;
 
 /// Why a recipe cannot be read, written or used.
 #[derive(Debug, thiserror::Error)]
@@ -67,7 +68,7 @@ pub enum RecipeError {
         reason: String,
     },
     /// Another recipe has the name.
-    #[error("there is a recipe named {name} already")]
+    #[error("{}", Message::new("recipe-exists").with("name", name.as_str()))]
     Exists {
         /// The name.
         name: String,

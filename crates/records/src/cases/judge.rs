@@ -6,6 +6,7 @@ use crate::history::{Record, StoredVerdict};
 use geometry::rigid::PoseDelta;
 pub use inspection::library::Truth;
 use inspection::pipeline::{Timings, Verdict};
+use texts::{Described, Message};
 
 /// A verdict as cases store it.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -108,16 +109,19 @@ impl CaseOutcome {
             (Truth::NotEnrolled | Truth::Nothing, CaseAnswer::NotAccepted) => Self::Right,
         }
     }
+}
 
-    /// Returns the outcome in English.
-    pub fn words(self) -> &'static str {
-        match self {
-            Self::Right => "right",
-            Self::Refused => "refused",
-            Self::WrongAccepted => "false accept",
-        }
+impl Described for CaseOutcome {
+    fn message(&self) -> Message {
+        Message::new(match self {
+            Self::Right => "outcome-right",
+            Self::Refused => "outcome-refused",
+            Self::WrongAccepted => "outcome-wrong-accepted",
+        })
     }
 }
+
+texts::display!(CaseOutcome);
 
 /// The result of one case.
 #[derive(Clone, Debug, PartialEq)]

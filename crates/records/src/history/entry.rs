@@ -23,7 +23,7 @@ use inspection::{
     },
 };
 use stages::{pose::PoseEstimate, scan::Shot, scene::SceneCloud};
-use texts::{Described as _, Language, Message};
+use texts::{Described, Language, Message};
 
 /// Verdict of an inspection.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,16 +43,6 @@ impl StoredVerdict {
     /// All verdicts.
     pub const ALL: [Self; 4] = [Self::Accepted, Self::Rejected, Self::Unknown, Self::NoPart];
 
-    /// Returns the name for people.
-    pub fn title(self) -> &'static str {
-        match self {
-            Self::Accepted => "Accepted",
-            Self::Rejected => "Not accepted",
-            Self::Unknown => "Unknown",
-            Self::NoPart => "No part",
-        }
-    }
-
     /// Returns the name in the file.
     pub fn name(self) -> &'static str {
         match self {
@@ -68,6 +58,14 @@ impl StoredVerdict {
         Self::ALL.into_iter().find(|verdict| verdict.name() == name)
     }
 }
+
+impl Described for StoredVerdict {
+    fn message(&self) -> Message {
+        Message::new(format!("verdict-{}", self.name().replace('_', "-")))
+    }
+}
+
+texts::display!(StoredVerdict);
 
 impl From<&Verdict> for StoredVerdict {
     fn from(verdict: &Verdict) -> Self {

@@ -16,6 +16,7 @@ use super::{
     frames::{self, FrameRecord},
     store::History,
 };
+use texts::{Described, Message};
 
 /// Number of the newest accepted inspections whose frames are kept by [`KeepFrames::NotAccepted`]. Frames of a Kinect take
 /// less than 100 MB together.
@@ -81,16 +82,19 @@ pub enum KeepFrames {
 impl KeepFrames {
     /// All rules.
     pub const ALL: [Self; 3] = [Self::All, Self::NotAccepted, Self::None];
+}
 
-    /// Returns the name for people.
-    pub fn title(self) -> &'static str {
-        match self {
-            Self::All => "All",
-            Self::NotAccepted => "Not accepted",
-            Self::None => "None",
-        }
+impl Described for KeepFrames {
+    fn message(&self) -> Message {
+        Message::new(match self {
+            Self::All => "keep-all",
+            Self::NotAccepted => "keep-not-accepted",
+            Self::None => "keep-none",
+        })
     }
 }
+
+texts::display!(KeepFrames);
 
 /// Disk usage of the kept frames.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -4,6 +4,8 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
+use texts::Message;
+
 /// What a scene is called: a name that somebody gave it, or numbers for which whoever shows them has words.
 ///
 /// Whether it is simulated is stored beside it. [`Display`](fmt::Display) writes it in English.
@@ -30,6 +32,11 @@ impl SceneTitle {
         number.map_or_else(|| Self::Named(name.to_owned()), Self::SimulatedFrame)
     }
 
+    /// The message with the title of the frame of the simulated cell with this number.
+    pub fn numbered(number: &str) -> Message {
+        Message::new("simulated-frame").with("number", number)
+    }
+
     /// Returns what a filter looks for its words in.
     pub(super) fn search(&self) -> String {
         match self {
@@ -44,7 +51,7 @@ impl fmt::Display for SceneTitle {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Named(name) => f.write_str(name),
-            Self::SimulatedFrame(number) => write!(f, "simulated frame {number}"),
+            Self::SimulatedFrame(number) => write!(f, "{}", Self::numbered(&number.to_string())),
             Self::Scan { name, num_shots } => write!(f, "{name} · {num_shots} shots"),
         }
     }

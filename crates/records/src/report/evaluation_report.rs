@@ -9,6 +9,7 @@ use crate::cases::{
 };
 use files::visible;
 use inspection::pipeline::Timings;
+use texts::Message;
 
 /// An evaluation with its recipe and stage times.
 #[derive(Debug)]
@@ -137,7 +138,7 @@ fn show_mistakes(evaluation: &Evaluation, text: &mut Text) {
             text.line(&format_args!(
                 "  {}: {}, it is {}, {}",
                 result.name,
-                judgement.words(),
+                judgement,
                 result.truth.name(),
                 result.found.words()
             ));
@@ -187,7 +188,7 @@ fn show_confusion(confusion: &Confusion, text: &mut Text) {
 
 fn show_calibration(calibration: &Calibration, text: &mut Text) {
     let Some(error) = calibration.expected_error else {
-        text.line(&"Calibration: nothing was taken for a part");
+        text.line(&Message::new("no-calibration"));
         return;
     };
     text.line(&format_args!(

@@ -2,6 +2,7 @@
 
 use geometry::error::Advice;
 use inspection::library::{MAX_PATH_POINTS, Side};
+use texts::Message;
 
 /// Why a path cannot be planned, or a film not be computed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -31,7 +32,7 @@ pub enum PaintError {
     #[error("the surface has no side that faces one way: it is folded or closed")]
     Folded,
     /// A part that is known all around may be painted from either side.
-    #[error("it is not clear which side of the part is the outside")]
+    #[error("{}", Message::new("enrol-side-unclear"))]
     SideUnclear {
         /// The two sides of its thinnest extent.
         sides: [Side; 2],

@@ -17,7 +17,7 @@ use geometry::error::Advice as _;
 use robot::Convention;
 use serve::{Answer, ClientEvent, ClientNews, ListenAddress, PoseKind, Protocol, parse_address};
 use ui::{
-    language::{described, text},
+    language::{described, text, what_and_advice},
     theme::space,
     user_error::UserError,
     widgets::{self, Mark, drop_down, heading, line_mark, row, text_button},
@@ -57,14 +57,11 @@ pub(super) fn ui(
     let typed = typed(dialog);
     let listener = typed.as_ref().map(|setup| (setup, setup.listener()));
     match &listener {
-        Ok((_, Ok(listener))) if listener.doubt().is_some() => {
-            let open = UserError {
-                what: text!("robot-open-to-network", at = listener.at.to_string()),
-                advice: text!("robot-open-to-network-advice"),
-            };
-            error_row(ui, Mark::Look, &open);
+        Ok((_, Ok(listener))) => {
+            if let Some(open) = listener.doubt() {
+                error_row(ui, Mark::Look, &what_and_advice(&open).into());
+            }
         }
-        Ok((_, Ok(_))) => {}
         Ok((_, Err(error))) => {
             let problem = UserError {
                 what: error.to_string(),

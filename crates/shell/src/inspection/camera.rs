@@ -16,6 +16,7 @@ use capture::{
 };
 use geometry::error::{Advice, lock};
 use stages::{field_of_view::FieldOfView, scene::SceneCloud};
+use ui::language::Message;
 
 /// A handle to the camera in use; clones share it.
 #[derive(Clone)]
@@ -47,7 +48,7 @@ pub enum NoFrame {
     #[error(transparent)]
     Capture(Arc<CaptureError>),
     /// A recording has no more frames.
-    #[error("{title} has no more frames")]
+    #[error("{}", no_more_frames(title))]
     AtItsEnd {
         /// Title of the recording.
         title: String,
@@ -55,6 +56,11 @@ pub enum NoFrame {
     /// The request was cancelled.
     #[error("the frame is no longer needed")]
     Cancelled,
+}
+
+/// The source of this title has ended.
+pub(crate) fn no_more_frames(title: &str) -> Message {
+    Message::new("no-more-frames").with("source", title)
 }
 
 impl Advice for NoFrame {

@@ -6,14 +6,14 @@ use nalgebra::{Isometry2, Point2};
 use super::library_cache::LibraryView;
 use inspection::{
     library::Library,
-    pipeline::{Inspection, Stage},
+    pipeline::{Inspection, Stage, parameters::Group},
 };
 use records::report::{binary_picture, segmentation_picture};
 use stages::{
     confirm::ConfirmedMatch, contour::Contour, rank::ImagePlacement, reference::ReferenceView,
     scene::SceneCloud, signature::FanSignature,
 };
-use ui::language::text;
+use ui::language::{parameters, text};
 
 /// The pictures of the stages, in order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,8 +46,8 @@ impl StagePanel {
     /// Returns the name shown to the user.
     pub fn title(self) -> String {
         match self {
-            Self::Segmentation => text!("results-group-segmentation"),
-            Self::BinaryImage => text!("results-group-binary-image"),
+            Self::Segmentation => parameters::group(Group::Segmentation),
+            Self::BinaryImage => parameters::group(Group::BinaryImage),
             Self::Contour => text!("inspect-contour"),
             Self::Signature => text!("inspect-signatures"),
             Self::Ranking => text!("inspect-ranking"),

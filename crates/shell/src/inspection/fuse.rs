@@ -31,7 +31,10 @@ use robot::{
     },
 };
 use stages::scan::{Scan, ScanError, ScanObserver, ScanParams, ScanStep, Shot, assemble};
-use ui::{language::text, user_error::UserError};
+use ui::{
+    language::{Message, described},
+    user_error::UserError,
+};
 
 /// Shots put together.
 #[derive(Debug)]
@@ -250,12 +253,11 @@ fn read(
                 }
                 FrameNews::Skipped(skipped) => {
                     steps.step();
+                    let left_out = Message::new("left-out")
+                        .with("name", &*skipped.name)
+                        .with("why", &*skipped.error.to_string());
                     warnings.push(UserError {
-                        what: text!(
-                            "shots-is-left-out",
-                            name = skipped.name.as_str(),
-                            why = skipped.error.to_string()
-                        ),
+                        what: described(&left_out),
                         advice: skipped.error.advice(),
                     });
                 }

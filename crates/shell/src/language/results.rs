@@ -1,5 +1,4 @@
-//! Texts about results in the language of the window. In English they equal those of the library itself, except where
-//! those name a command.
+//! Texts about results in the language of the window.
 //!
 //! Each kind of result is matched exhaustively, so that a new one does not compile without its text.
 
@@ -11,37 +10,20 @@ use inspection::{
         AS_IN_THE_PAPER, AcceptParams, RecipeLabel, RefusalKind, Rejection, Verdict, is_like,
     },
 };
-use records::history::{KeepFrames, SceneTitle, StoredVerdict, Summary};
+use records::history::{SceneTitle, StoredVerdict, Summary};
 use simulate::ObjectKind;
-use stages::pose::Stopped;
-use ui::language::{Language, text};
+use ui::{
+    language::{Language, Message, described, text},
+    widgets::sentence,
+};
 
 /// Says whether an inspection was accepted, for whatever reason it was not.
 pub fn accepted_or_not(is_accepted: bool) -> String {
-    if is_accepted {
-        text!("results-accepted")
+    described(if is_accepted {
+        &StoredVerdict::Accepted
     } else {
-        text!("results-not-accepted")
-    }
-}
-
-/// Returns the name of a stored verdict.
-pub fn stored_verdict(verdict: StoredVerdict) -> String {
-    match verdict {
-        StoredVerdict::Accepted => accepted_or_not(true),
-        StoredVerdict::Rejected => accepted_or_not(false),
-        StoredVerdict::Unknown => text!("results-unknown"),
-        StoredVerdict::NoPart => text!("results-no-part"),
-    }
-}
-
-/// Describes which frames are kept.
-pub fn keep_frames(keep: KeepFrames) -> String {
-    match keep {
-        KeepFrames::All => text!("results-keep-all"),
-        KeepFrames::NotAccepted => text!("results-keep-not-accepted"),
-        KeepFrames::None => text!("results-keep-none"),
-    }
+        &StoredVerdict::Rejected
+    })
 }
 
 /// True if score and margin show which part it is. Whatever else speaks against it, such as its pose, it is called by its name.
@@ -67,7 +49,7 @@ pub fn inspection_title(past: &Summary) -> String {
         return text!("results-title-refused", part = part);
     }
     if let Some(part) = past.mirror_of() {
-        return text!("results-title-mirrored", part = part);
+        return mirror_image(part);
     }
     let part = &past.title;
     match past.verdict {
@@ -77,8 +59,13 @@ pub fn inspection_title(past: &Summary) -> String {
             text!("inspect-unknown-part")
         }
         StoredVerdict::Unknown => text!("results-title-unknown", part = part),
-        StoredVerdict::NoPart => text!("results-no-part"),
+        StoredVerdict::NoPart => described(&past.verdict),
     }
+}
+
+/// Says that it is the mirror image of this part.
+pub fn mirror_image(part: &str) -> String {
+    sentence(&described(&Message::new("mirror-image").with("part", part)))
 }
 
 /// Returns the title of a part that was recognised and yet not accepted. The limits of its recipe are not in the row: those
@@ -93,7 +80,7 @@ pub fn recognised_part(past: &Summary) -> Option<&str> {
 pub fn scene_title(scene: &SceneTitle, is_simulated: bool) -> String {
     let title = match scene {
         SceneTitle::SimulatedFrame(number) => {
-            return text!("shell-simulated-frame", number = *number);
+            return numbered(&number.to_string());
         }
         SceneTitle::Named(name) => name.clone(),
         SceneTitle::Scan { name, num_shots } => {
@@ -105,6 +92,11 @@ pub fn scene_title(scene: &SceneTitle, is_simulated: bool) -> String {
     } else {
         title
     }
+}
+
+/// The title of the frame of the simulated cell with this number.
+fn numbered(number: &str) -> String {
+    sentence(&described(&SceneTitle::numbered(number)))
 }
 
 /// Returns the title of a source; only the simulated cell has a name of its own.
@@ -124,12 +116,9 @@ pub fn source_title(source: &str, is_simulated: bool) -> String {
 
 /// Returns the texts that the list shows for data, in lower case, each with what the search text has for them.
 pub fn searched_texts() -> Vec<[String; 2]> {
-    let verdict = |verdict: StoredVerdict| format!("={}", verdict.name());
+    let verdict = |verdict: StoredVerdict| (described(&verdict), format!("={}", verdict.name()));
     let both = [
-        (
-            text!("shell-simulated-frame", number = ""),
-            "=simulated_frame ".to_owned(),
-        ),
+        (numbered(""), "=simulated_frame ".to_owned()),
         (
             text!("shell-of-simulator", name = ""),
             "=simulated".to_owned(),
@@ -137,16 +126,10 @@ pub fn searched_texts() -> Vec<[String; 2]> {
         (text!("shots-all-used", num = ""), "=shots ".to_owned()),
         (text!("shell-simulated-cell"), format!("\n{CELL_SOURCE}")),
         (text!("shell-simulated-cell"), "\nsimulated".to_owned()),
-        (
-            text!("results-not-accepted"),
-            verdict(StoredVerdict::Rejected),
-        ),
-        (text!("results-unknown"), verdict(StoredVerdict::Unknown)),
-        (
-            text!("results-title-mirrored", part = ""),
-            "=mirrored".to_owned(),
-        ),
-        (text!("results-no-part"), verdict(StoredVerdict::NoPart)),
+        verdict(StoredVerdict::Rejected),
+        verdict(StoredVerdict::Unknown),
+        (mirror_image(""), "=mirrored".to_owned()),
+        verdict(StoredVerdict::NoPart),
     ];
     both.map(|(shown, searched)| [shown.to_lowercase(), searched])
         .into()
@@ -156,16 +139,6 @@ pub fn searched_texts() -> Vec<[String; 2]> {
 pub fn refusal_kind(kind: &RefusalKind) -> String {
     let name = kind.message().attribute(Language::current(), "kind");
     name.unwrap_or_else(|| kind.to_string())
-}
-
-/// Explains why an estimation ended.
-pub fn stopped(stopped: Stopped) -> String {
-    match stopped {
-        Stopped::Converged => text!("results-converged"),
-        Stopped::BelowTarget => text!("results-below-target"),
-        Stopped::IterationLimit => text!("results-iteration-limit"),
-        Stopped::NoProgress => text!("results-no-progress"),
-    }
 }
 
 /// States the side that a part is painted from.
@@ -235,26 +208,7 @@ mod tests {
         fixtures::history_entry,
         history::{Filter, Record},
     };
-    use ui::language::{advised, described};
-
-    #[test]
-    fn in_english_the_window_says_what_the_library_says() {
-        for verdict in StoredVerdict::ALL {
-            assert_eq!(stored_verdict(verdict), verdict.title());
-        }
-        for keep in KeepFrames::ALL {
-            assert_eq!(keep_frames(keep), keep.title());
-        }
-        let name = |why: Stopped| why.name().replace('_', " ");
-        for why in [
-            Stopped::Converged,
-            Stopped::BelowTarget,
-            Stopped::IterationLimit,
-            Stopped::NoProgress,
-        ] {
-            assert_eq!(stopped(why), name(why));
-        }
-    }
+    use ui::language::advised;
 
     /// A refused front door whose title was "Door, left" at that time.
     fn refused_door(verdict: StoredVerdict) -> Record {
@@ -378,7 +332,7 @@ mod tests {
             language.make_current();
             for (verdict, row) in StoredVerdict::ALL.into_iter().zip(&rows) {
                 let filter = Filter {
-                    text: stored_verdict(verdict),
+                    text: described(&verdict),
                     shown: searched_texts(),
                     ..Filter::default()
                 };

@@ -6,8 +6,8 @@ use robot::Convention;
 use servo::ServoState;
 use station::robot_file::Unchecked;
 use ui::{
-    language::{attribute, described, text},
-    widgets::Mark,
+    language::{Message, attribute, described, text},
+    widgets::{Mark, sentence},
 };
 
 /// Describes order, axes and units of a convention's numbers.
@@ -19,7 +19,8 @@ pub fn convention_meaning(convention: Convention) -> String {
 pub fn not_checked(unchecked: &[Unchecked]) -> Option<String> {
     let words: Vec<String> = unchecked.iter().map(described).collect();
     let what = words.join("; ");
-    (!what.is_empty()).then(|| text!("robot-not-checked", what = what))
+    let message = Message::new("not-checked").with("what", &*what);
+    (!what.is_empty()).then(|| sentence(&described(&message)))
 }
 
 /// Names what a run was to reach.

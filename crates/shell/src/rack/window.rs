@@ -23,7 +23,7 @@ use stages::segment::MAX_PARTS;
 use ui::{
     language::text,
     theme::{Theme, space},
-    widgets::{button_if, text_button},
+    widgets::{button_if, sentence, text_button},
 };
 
 /// Width of the window, logical pixels.
@@ -103,7 +103,7 @@ fn top(
         ui.label(text!("rack-frame"));
         let is_calibrated = state.session.robot.is_some();
         for (frame, text) in [
-            (RackFrame::Camera, text!("rack-in-camera")),
+            (RackFrame::Camera, sentence(&text!("robot-camera"))),
             (RackFrame::Base, text!("shell-robot-base")),
         ] {
             let can = frame == RackFrame::Camera || is_calibrated;

@@ -14,7 +14,7 @@ use records::history::{StoredVerdict, Traceability};
 use ui::{
     language::text,
     theme::space,
-    widgets::{line_edit, text_button},
+    widgets::{line_edit, sentence, text_button},
 };
 
 /// Width of the label before a field, logical pixels.
@@ -144,12 +144,14 @@ fn first_fields(ui: &mut Ui, session: &Session, num: usize) {
     };
     let entries: [(String, String, TraceEntry); 3] = [
         (text!("operator-serial"), hint, |trace| &mut trace.serial),
-        (text!("operator-order"), String::new(), |trace| {
+        (sentence(&text!("inspect-order")), String::new(), |trace| {
             &mut trace.order
         }),
-        (text!("operator-operator"), String::new(), |trace| {
-            &mut trace.operator
-        }),
+        (
+            sentence(&text!("inspect-operator")),
+            String::new(),
+            |trace| &mut trace.operator,
+        ),
     ];
     for (index, (name, says, entry)) in entries.into_iter().enumerate().take(num) {
         let before = std::mem::take(entry(&mut trace.get()));

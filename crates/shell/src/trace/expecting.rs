@@ -277,7 +277,7 @@ mod tests {
         inspection::{inspected::inspected_cell, source::CellChoice},
         session::Shown,
     };
-    use records::{history::HungId, orders::Orders};
+    use records::history::HungId;
 
     #[test]
     fn the_program_starts_with_the_table_of_last_time() {

@@ -123,7 +123,7 @@ impl NotKnown {
             Self::Order(error) => UserError::of(error),
             Self::Chosen(error) => UserError::of(error),
             Self::Recipe { name, error } => UserError {
-                what: format!("recipe {name}: {error}"),
+                what: error.of_recipe(name).to_string(),
                 advice: error.advice(),
             },
         }
@@ -136,14 +136,9 @@ impl NotKnown {
             Self::Unread { file } => [text!("expect-reading", file = file), text!("shell-wait")],
             Self::Table(error) => [unusable(described(&**error)), advised(&**error)],
             Self::Chosen(error) => [described(error), advised(error)],
-            Self::Recipe { name, error } => [
-                text!(
-                    "expect-recipe-unusable",
-                    recipe = name,
-                    error = described(error)
-                ),
-                advised(error),
-            ],
+            Self::Recipe { name, error } => {
+                [sentence(&described(&error.of_recipe(name))), advised(error)]
+            }
             Self::Order(OrderError::Parts(cell)) => [unusable(described(cell)), advised(cell)],
             Self::Order(error) => [sentence(&described(error)), advised(error)],
         };

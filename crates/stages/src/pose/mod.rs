@@ -21,6 +21,7 @@ pub mod uncertainty;
 use std::fmt;
 
 use geometry::{rigid::RigidTransform, units::Metres};
+use texts::{Described, Message};
 
 pub use self::{
     align::{AlignParams, align, align_to, align_with},
@@ -85,6 +86,14 @@ impl Stopped {
         }
     }
 }
+
+impl Described for Stopped {
+    fn message(&self) -> Message {
+        Message::new(format!("stopped-{}", self.name().replace('_', "-")))
+    }
+}
+
+texts::display!(Stopped);
 
 /// What a step of an estimation is a step of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]

@@ -36,6 +36,7 @@ use inspection::{
 use records::history::{ServoRecord, ServoRun, ServoSample, ServoTargetKind};
 use simulate::PartKind;
 use stages::scene::EmptyCell;
+use texts::Message;
 
 /// What every run is told.
 pub struct ServoJob<'a> {
@@ -84,7 +85,7 @@ pub enum ServoRunError {
     #[error(transparent)]
     Setup(#[from] SetupError),
     /// The simulated cell lacks the part.
-    #[error("the simulated cell has no {part}")]
+    #[error("{}", Message::new("servo-not-simulated").with("part", part.as_str()))]
     NotSimulated {
         /// Its name.
         part: String,

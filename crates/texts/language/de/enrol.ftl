@@ -65,3 +65,16 @@ enrolled-closed-sheet = geschlossenes Blech, etwa { MM($thickness_m, 1) } mm dic
 enrolled-open-surface = offene Fläche ohne Dicke ({ $percent } %): sie wird von beiden Seiten erkannt
 enrolled-turned = gewendet: { $percent } % der Dreiecke zeigten nach innen
 enrolled-hidden = { $percent } % der Fläche liegen innen, wo keine Kamera sie sieht, und werden weggelassen
+
+## What was enrolled
+
+shared-title = { $other } hat ebenfalls den Titel „{ $title }“
+    .advice = Einen anderen Titel wählen: Ergebnisse und Listen unterscheiden Teile danach
+enrolled-from-segmented = Teil in einer aufgenommenen Szene
+enrolled-from-whole-cloud = ganze Punktwolke
+enrolled-from-mesh = Netz
+enrolled-from-scan = Scan
+renamed = { $before } in { $now } umbenannt
+no-such-part = die Bibliothek hat kein Teil { $name }
+mesh-no-area = { $path }: Das Netz hat keine Fläche
+    .advice = { not-enrolled-no-area.advice }

@@ -11,3 +11,5 @@ expected-no-such-place = ein Teil wird am Platz „{ $place }“ erwartet, den d
     }
 expected-place-twice = zwei Teile werden am Platz „{ $place }“ erwartet, an dem eines hängen kann
     .advice = An jedem Platz ein Teil erwarten
+
+expected-recipe = Rezept { $recipe }: { $why }

@@ -56,3 +56,6 @@ cloud-role = { $which ->
         [source] Quelle
        *[other] Ziel
     }
+
+## Which clouds
+pose-onto = { $source } auf { $target }

@@ -15,3 +15,7 @@ excluded-overlaps-none = sie überlappt keine andere Aufnahme, daher lässt sich
 excluded-part-moved = das Teil hat sich bewegt: Die Zelle stimmt mit den anderen Bildern überein, vom Teil nur { PERCENT($share, 0) } %
     .advice = Das Bild bei stillstehendem Teil erneut aufnehmen
     .short = Teil bewegt
+
+# Frames of a scan
+left-out = { $name } wird ausgelassen: { $why }
+no-part-in-frame = kein Teil gefunden

@@ -47,3 +47,7 @@ servo-robot-stopped = der Roboter wurde angehalten, weil sein Programm nicht meh
     .advice = Das Programm des Roboters neu starten und dann erneut servoen
 servo-by-person = der Roboter wurde auf Wunsch angehalten
     .advice = Neu starten, wenn die Zelle frei ist
+
+# Before it moves
+servo-waits-for-robot = Wartet auf den Roboter: { $robot }
+servo-not-simulated = die simulierte Zelle hat kein Teil { $part }

@@ -17,3 +17,5 @@ unchecked-accelerations =
     .advice = Die Grenzen in der Datei des Arms ergänzen
 unchecked-not-seen = der Düsenabstand an { $num } von { $num_points } Punkten, wo die Kamera keine Oberfläche sah
     .advice = Das Teil so aufnehmen, dass die Kamera mehr davon sieht, oder es scannen, falls die Bahn dort auf das Teil zielen soll
+
+not-checked = nicht geprüft: { $what }

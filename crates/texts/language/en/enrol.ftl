@@ -68,3 +68,16 @@ enrolled-closed-sheet = closed sheet, about { MM($thickness_m, 1) } mm thick
 enrolled-open-surface = open surface without thickness ({ $percent } %): it is recognised from both sides
 enrolled-turned = turned: { $percent } % of its triangles faced inwards
 enrolled-hidden = { $percent } % of its surface is inside, where no camera sees it, and is left out
+
+## What was enrolled
+
+shared-title = { $other } has the title "{ $title }" too
+    .advice = Choose another title: verdicts and lists tell parts apart by it
+enrolled-from-segmented = the part found in a captured scene
+enrolled-from-whole-cloud = a whole cloud
+enrolled-from-mesh = a mesh
+enrolled-from-scan = a scan
+renamed = Renamed { $before } to { $now }
+no-such-part = the library has no part { $name }
+mesh-no-area = { $path }: the mesh has no area
+    .advice = { not-enrolled-no-area.advice }

@@ -16,3 +16,5 @@ expected-no-such-place = a part is expected at place "{ $place }", which the rac
     }
 expected-place-twice = two parts are expected at place "{ $place }", where one can hang
     .advice = Expect one part at each place
+
+expected-recipe = recipe { $recipe }: { $why }

@@ -59,3 +59,6 @@ cloud-role = { $which ->
         [source] source
        *[other] target
     }
+
+## Which clouds
+pose-onto = { $source } onto { $target }

@@ -15,3 +15,7 @@ excluded-overlaps-none = it overlaps no other frame, so its pose cannot be check
 excluded-part-moved = the part moved: the cell agrees with the other frames, { PERCENT($share, 0) } % of the part does
     .advice = Capture the frame again while the part stands still
     .short = the part moved
+
+# Frames of a scan
+left-out = { $name } is left out: { $why }
+no-part-in-frame = no part found in it

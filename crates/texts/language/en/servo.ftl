@@ -47,3 +47,7 @@ servo-robot-stopped = the robot was stopped because its program has stopped, or 
     .advice = Start the robot's program again, then servo again
 servo-by-person = the robot was stopped on request
     .advice = Start again when the cell is clear
+
+# Before it moves
+servo-waits-for-robot = Waiting for the robot: { $robot }
+servo-not-simulated = the simulated cell has no { $part }

@@ -17,3 +17,5 @@ unchecked-accelerations =
     .advice = Add the limits to the arm's file
 unchecked-not-seen = the stand-off at { $num } of { $num_points } points, where the camera saw no surface
     .advice = Capture the part so that the camera sees more of it, or scan it, if the path should aim at it there
+
+not-checked = not checked: { $what }

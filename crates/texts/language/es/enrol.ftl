@@ -65,3 +65,16 @@ enrolled-closed-sheet = chapa cerrada, de unos { MM($thickness_m, 1) } mm de esp
 enrolled-open-surface = superficie abierta sin espesor ({ $percent } %): se reconoce por ambas caras
 enrolled-turned = invertida: el { $percent } % de sus triángulos miraba hacia dentro
 enrolled-hidden = el { $percent } % de su superficie está dentro, donde ninguna cámara la ve, y se omite
+
+## What was enrolled
+
+shared-title = { $other } también tiene el título «{ $title }»
+    .advice = Elegir otro título: los resultados y las listas distinguen las piezas por él
+enrolled-from-segmented = pieza hallada en una escena capturada
+enrolled-from-whole-cloud = nube de puntos entera
+enrolled-from-mesh = malla
+enrolled-from-scan = escaneo
+renamed = { $before } se llama ahora { $now }
+no-such-part = la biblioteca no tiene la pieza { $name }
+mesh-no-area = { $path }: la malla no tiene área
+    .advice = { not-enrolled-no-area.advice }

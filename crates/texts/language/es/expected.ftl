@@ -11,3 +11,5 @@ expected-no-such-place = se espera una pieza en el lugar «{ $place }», que el 
     }
 expected-place-twice = se esperan dos piezas en el lugar «{ $place }», donde puede colgar una
     .advice = Esperar una pieza en cada lugar
+
+expected-recipe = receta { $recipe }: { $why }

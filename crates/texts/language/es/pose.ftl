@@ -56,3 +56,6 @@ cloud-role = { $which ->
         [source] origen
        *[other] destino
     }
+
+## Which clouds
+pose-onto = { $source } sobre { $target }

@@ -15,3 +15,7 @@ excluded-overlaps-none = no solapa con ninguna otra toma, así que su pose no se
 excluded-part-moved = la pieza se movió: la celda concuerda con las demás imágenes, de la pieza el { PERCENT($share, 0) } %
     .advice = Volver a capturar la imagen con la pieza inmóvil
     .short = la pieza se movió
+
+# Frames of a scan
+left-out = { $name } queda excluida: { $why }
+no-part-in-frame = sin pieza en ella

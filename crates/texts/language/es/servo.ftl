@@ -47,3 +47,7 @@ servo-robot-stopped = el robot se detuvo porque su programa se ha parado o ya no
     .advice = Inicie de nuevo el programa del robot y vuelva a servocontrolar
 servo-by-person = el robot se detuvo a petición
     .advice = Empiece de nuevo cuando la celda esté libre
+
+# Before it moves
+servo-waits-for-robot = Esperando al robot: { $robot }
+servo-not-simulated = la celda simulada no tiene { $part }

@@ -17,3 +17,5 @@ unchecked-accelerations =
     .advice = Añadir los límites al archivo del brazo
 unchecked-not-seen = la distancia de boquilla en { $num } de { $num_points } puntos, donde la cámara no vio superficie
     .advice = Capturar la pieza de modo que la cámara vea más de ella, o escanearla, si la trayectoria debe apuntar a ella allí
+
+not-checked = sin comprobar: { $what }

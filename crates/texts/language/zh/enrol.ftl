@@ -65,3 +65,16 @@ enrolled-closed-sheet = 封闭薄板，厚约 { MM($thickness_m, 1) } mm
 enrolled-open-surface = 无厚度的开放曲面（{ $percent } %）：从两面均可识别
 enrolled-turned = 已翻转：{ $percent } % 的三角形原本朝内
 enrolled-hidden = { $percent } % 的表面在内部，相机看不到，已略去
+
+## What was enrolled
+
+shared-title = { $other } 的标题也是“{ $title }”
+    .advice = 请另选标题：判定结果和列表以标题区分零件
+enrolled-from-segmented = 在采集的场景中找到的零件
+enrolled-from-whole-cloud = 整个点云
+enrolled-from-mesh = 网格
+enrolled-from-scan = 扫描
+renamed = 已将 { $before } 重命名为 { $now }
+no-such-part = 零件库中没有零件 { $name }
+mesh-no-area = { $path }：网格没有面积
+    .advice = { not-enrolled-no-area.advice }

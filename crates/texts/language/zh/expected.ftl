@@ -11,3 +11,5 @@ expected-no-such-place = 期望在位置“{ $place }”有零件，但挂架没
     }
 expected-place-twice = 期望在位置“{ $place }”有两个零件，而那里只能挂一个
     .advice = 每个位置只期望一个零件
+
+expected-recipe = 配方 { $recipe }：{ $why }

@@ -56,3 +56,6 @@ cloud-role = { $which ->
         [source] 源
        *[other] 目标
     }
+
+## Which clouds
+pose-onto = { $source } 到 { $target }

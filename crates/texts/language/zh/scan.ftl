@@ -15,3 +15,7 @@ excluded-overlaps-none = 与其他拍摄无重叠，无法检查其位姿
 excluded-part-moved = 零件移动：工位与其他帧一致，零件仅 { PERCENT($share, 0) } % 一致
     .advice = 在零件静止时重新采集该帧
     .short = 零件移动
+
+# Frames of a scan
+left-out = 已排除 { $name }：{ $why }
+no-part-in-frame = 未找到零件

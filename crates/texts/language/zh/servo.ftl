@@ -47,3 +47,7 @@ servo-robot-stopped = 机器人已停止，因为其程序已停止或不再接�
     .advice = 重新启动机器人程序，然后再次开始伺服
 servo-by-person = 机器人已按要求停止
     .advice = 工位清空后重新开始
+
+# Before it moves
+servo-waits-for-robot = 等待机器人：{ $robot }
+servo-not-simulated = 仿真工位中没有 { $part }

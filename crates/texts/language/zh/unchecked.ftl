@@ -17,3 +17,5 @@ unchecked-accelerations =
     .advice = 请在机械臂文件中补充限值
 unchecked-not-seen = { $num_points } 个点中 { $num } 个点的喷距，相机在那里未看到表面
     .advice = 若轨迹应在该处对准零件，请重新采集以使相机看到更多零件，或扫描零件
+
+not-checked = 未检查：{ $what }

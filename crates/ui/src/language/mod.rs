@@ -21,10 +21,10 @@ pub use crate::text;
 mod catalogue;
 pub mod parameters;
 
-use texts::{Described, Message};
+use texts::Described;
 
 pub use fluent_bundle::FluentValue;
-pub use texts::Language;
+pub use texts::{Language, Message};
 
 pub use self::catalogue::{plain, with};
 

@@ -1,5 +1,7 @@
-//! Texts of the parameters of recipes, coats and programs. In English, names and helps are those of the tables
-//! ([`Parameters::ALL`]), which the command line shows too.
+//! Texts of the parameters of recipes, coats and programs. In English, they are those of the tables ([`Parameters::ALL`]) and
+//! of the program's coats, which the command line shows too.
+
+use std::sync::LazyLock;
 
 use super::catalogue::translated;
 use inspection::pipeline::{
@@ -7,46 +9,57 @@ use inspection::pipeline::{
     parameters::{Group, Kind, Parameter, Parameters},
 };
 use robot::{
-    paint::{Coat, CoatGroup},
+    paint::{BUILT_IN_COATS, Coat, CoatGroup, built_in_coat},
     program::ProgramParams,
 };
 
 /// Returns the title of a group of recipe parameters.
 pub fn group(group: Group) -> String {
+    translated(group_id(group), group.title())
+}
+
+fn group_id(group: Group) -> &'static str {
     match group {
-        Group::Segmentation => text!("results-group-segmentation"),
-        Group::BinaryImage => text!("results-group-binary-image"),
-        Group::Contour => text!("results-group-contour"),
-        Group::Match => text!("results-group-match"),
-        Group::Pose => text!("shell-pose"),
-        Group::IcpGa => text!("results-group-icp-ga"),
-        Group::Acceptance => text!("results-group-acceptance"),
-        Group::StandOff => text!("results-group-stand-off"),
+        Group::Segmentation => "results-group-segmentation",
+        Group::BinaryImage => "results-group-binary-image",
+        Group::Contour => "results-group-contour",
+        Group::Match => "results-group-match",
+        Group::Pose => "results-group-pose",
+        Group::IcpGa => "results-group-icp-ga",
+        Group::Acceptance => "results-group-acceptance",
+        Group::StandOff => "results-group-stand-off",
     }
 }
 
 /// Returns the title of a group of coat parameters.
 pub fn coat_group(group: CoatGroup) -> String {
+    translated(coat_group_id(group), group.title())
+}
+
+fn coat_group_id(group: CoatGroup) -> &'static str {
     match group {
-        CoatGroup::Gun => text!("coat-group-gun"),
-        CoatGroup::Path => text!("coat-group-path"),
-        CoatGroup::Film => text!("coat-group-film"),
+        CoatGroup::Gun => "coat-group-gun",
+        CoatGroup::Path => "coat-group-path",
+        CoatGroup::Film => "coat-group-film",
     }
 }
 
-/// Notes of the program's coats.
-const PRIMER: &str = "Two-component primer filler: thick, high solids, slow enough to fill.";
-const BASE_COAT: &str = "Water-borne base coat: thin, low solids, colour and effect; rows close together against clouds.";
-const CLEAR_COAT: &str = "Two-component clear coat: thick and wet, gloss comes from an even film.";
-
 /// Translates the notes of the program's coats, which coats made from them keep; returns any others unchanged.
 pub fn coat_notes(notes: &str) -> String {
-    match notes {
-        PRIMER => text!("coat-notes-primer"),
-        BASE_COAT => text!("coat-notes-base-coat"),
-        CLEAR_COAT => text!("coat-notes-clear-coat"),
-        own => own.to_owned(),
+    static KNOWN: LazyLock<Vec<(&str, String)>> = LazyLock::new(|| {
+        let coats = BUILT_IN_COATS.into_iter();
+        let coats = coats.filter_map(|name| Some((name, built_in_coat(name)?.notes)));
+        coats.collect()
+    });
+    match KNOWN.iter().find(|(_, known)| known == notes) {
+        Some((name, _)) => translated(&coat_notes_id(name), notes),
+        None => notes.to_owned(),
     }
+}
+
+/// The message with the notes of the program's coat of this name.
+fn coat_notes_id(name: &str) -> String {
+    format!("coat-notes-{}", name.replace('_', "-"))
 }
 
 /// Parameters whose texts are in the files of the window's languages.
@@ -92,21 +105,32 @@ pub fn options<R: Parameters>(parameter: &Parameter<R>) -> Vec<String> {
     let Kind::Choice(choice) = &parameter.kind else {
         return Vec::new();
     };
-    let option = |option: &&str| match *option {
-        "Default" => text!("results-option-default"),
-        "Paper" => text!("results-option-paper"),
-        "Global" => text!("results-option-global"),
-        "None" => text!("results-option-none"),
-        "Gaussian" => text!("coat-option-gaussian"),
-        "Beta" => text!("coat-option-beta"),
-        "Raster" => text!("coat-option-raster"),
-        "Cross-hatch" => text!("coat-option-cross-hatch"),
-        "Contour" => text!("coat-option-contour"),
-        "Principal axis" => text!("coat-option-principal-axis"),
-        "Angle" => text!("coat-option-angle"),
-        number_or_method => number_or_method.to_owned(),
-    };
-    choice.options.iter().map(option).collect()
+    choice.options.iter().copied().map(option).collect()
+}
+
+/// Returns the name of an option; numbers and names of methods are not translated.
+pub fn option(option: &str) -> String {
+    match option_id(option) {
+        Some(id) => translated(id, option),
+        None => option.to_owned(),
+    }
+}
+
+fn option_id(option: &str) -> Option<&'static str> {
+    Some(match option {
+        "Default" => "results-option-default",
+        "Paper" => "results-option-paper",
+        "Global" => "results-option-global",
+        "None" => "results-option-none",
+        "Gaussian" => "coat-option-gaussian",
+        "Beta" => "coat-option-beta",
+        "Raster" => "coat-option-raster",
+        "Cross-hatch" => "coat-option-cross-hatch",
+        "Contour" => "coat-option-contour",
+        "Principal axis" => "coat-option-principal-axis",
+        "Angle" => "coat-option-angle",
+        _ => return None,
+    })
 }
 
 /// Formats a parameter's value as text.
@@ -116,8 +140,8 @@ pub fn value<R: Parameters>(parameter: &Parameter<R>, recipe: &R) -> String {
     option.unwrap_or_else(|| parameter.text(recipe))
 }
 
-/// The messages with the names of all parameters, and the helps of those that the window shows, in all languages
-/// but English.
+/// The messages with what the tables and the program's coats have in English, in all other languages: of helps, those that
+/// the window shows.
 #[cfg(test)]
 pub(super) fn message_ids() -> Vec<String> {
     use inspection::pipeline::parameters::Place;
@@ -126,12 +150,25 @@ pub(super) fn message_ids() -> Vec<String> {
         R::ALL.iter().flat_map(|parameter| {
             let is_shown = parameter.place != Place::Hidden;
             let help = is_shown.then(|| help_id(parameter));
-            [name_id(parameter)].into_iter().chain(help)
+            let options = match &parameter.kind {
+                Kind::Choice(choice) => choice.options,
+                Kind::Number(_) => &[],
+            };
+            let options = options.iter().filter_map(|option| option_id(option));
+            let options = options.map(str::to_owned);
+            [name_id(parameter)].into_iter().chain(help).chain(options)
         })
     }
     let of_inspection = of_table::<Recipe>();
     let of_paint = of_table::<Coat>().chain(of_table::<ProgramParams>());
-    of_inspection.chain(of_paint).collect()
+    let groups = Group::ALL.map(group_id).into_iter();
+    let groups = groups.chain(CoatGroup::ALL.map(coat_group_id));
+    let notes = BUILT_IN_COATS.map(coat_notes_id);
+    of_inspection
+        .chain(of_paint)
+        .chain(groups.map(str::to_owned))
+        .chain(notes)
+        .collect()
 }
 
 #[cfg(test)]
@@ -139,7 +176,6 @@ mod tests {
     use super::*;
     use crate::language::Language;
     use inspection::pipeline::parameters::Place;
-    use robot::paint::{BUILT_IN_COATS, built_in_coat};
 
     fn check_table<R: TranslatedParameters>() {
         for parameter in R::ALL {
@@ -149,9 +185,6 @@ mod tests {
                 Language::Chinese.make_current();
                 assert_ne!(help(parameter), parameter.help);
                 Language::English.make_current();
-            }
-            if let Kind::Choice(choice) = &parameter.kind {
-                assert_eq!(options(parameter), choice.options);
             }
         }
     }
@@ -174,11 +207,5 @@ mod tests {
         check_table::<Recipe>();
         check_table::<Coat>();
         check_table::<ProgramParams>();
-        for of in Group::ALL {
-            assert_eq!(group(of), of.title());
-        }
-        for of in CoatGroup::ALL {
-            assert_eq!(coat_group(of), of.title());
-        }
     }
 }

@@ -24,7 +24,7 @@ use stages::{
     scene::cloud_of,
 };
 use ui::{
-    language::text,
+    language::{Message, described, text, what_and_advice},
     user_error::UserError,
     viewport::{PointSet, Role},
 };
@@ -159,12 +159,8 @@ impl Pair {
             PairNames::MovedCopy { part, start } => {
                 text!("align-from", part = part, start = start.title())
             }
-            PairNames::Scene { scene, part } => {
-                text!("align-onto", source = scene.shown_title(), target = part)
-            }
-            PairNames::Files { source, target } => {
-                text!("align-onto", source = source, target = target)
-            }
+            PairNames::Scene { scene, part } => onto(&scene.shown_title(), part),
+            PairNames::Files { source, target } => onto(source, target),
         }
     }
 
@@ -231,6 +227,11 @@ fn drawn(cloud: &PointCloud, role: Role) -> PointSet {
     PointSet::new(points, role)
 }
 
+fn onto(source: &str, target: &str) -> String {
+    let message = Message::new("pose-onto");
+    described(&message.with("source", source).with("target", target))
+}
+
 /// Finds the enrolled part of this name, and its title.
 fn find<'a>(loaded: &'a LoadedLibrary, part: &str) -> Result<(&'a Reference, &'a str), UserError> {
     let place = loaded.shown.place_of(part);
@@ -239,7 +240,7 @@ fn find<'a>(loaded: &'a LoadedLibrary, part: &str) -> Result<(&'a Reference, &'a
         Some((reference, loaded.shown.title(place)))
     });
     found.ok_or_else(|| UserError {
-        what: text!("align-part-gone", name = part),
+        what: described(&Message::new("no-such-part").with("name", part)),
         advice: text!("shell-choose-another-part"),
     })
 }
@@ -247,9 +248,9 @@ fn find<'a>(loaded: &'a LoadedLibrary, part: &str) -> Result<(&'a Reference, &'a
 fn open(path: &Path, warnings: &mut Vec<UserError>) -> Result<PointCloud, UserError> {
     let opened = files::open(path).map_err(|error| UserError::of(&error))?;
     warnings.extend(opened.warnings().iter().map(UserError::of));
-    let cloud = cloud_of(opened).ok_or_else(|| UserError {
-        what: text!("align-mesh-no-area", path = path.display().to_string()),
-        advice: text!("align-mesh-no-area-advice"),
+    let cloud = cloud_of(opened).ok_or_else(|| {
+        let message = Message::new("mesh-no-area").with("path", &*path.display().to_string());
+        UserError::from(what_and_advice(&message))
     })?;
     Ok(PointCloud::from_points(cloud.points))
 }

@@ -10,7 +10,7 @@ use super::{
 };
 use stages::pose::PoseMethod;
 use ui::{
-    language::text,
+    language::{parameters, text},
     plot::{Axes, Axis, curve, range_of},
     theme::{Theme, font},
 };
@@ -194,7 +194,7 @@ pub(super) fn method_title(method: PoseMethod) -> String {
     match method {
         PoseMethod::Icp => "ICP".into(),
         PoseMethod::IcpGa => "ICP-GA".into(),
-        PoseMethod::Global => text!("results-option-global"),
+        PoseMethod::Global => parameters::option("Global"),
     }
 }
 

@@ -20,6 +20,7 @@ use ui::{
     language::text,
     scrubber::Playback,
     task::{Running, Task, TaskRunner},
+    widgets::sentence,
 };
 
 /// State of the workspace.
@@ -102,7 +103,7 @@ impl Pairing {
     pub fn title(self) -> String {
         match self {
             Self::MovedCopy => text!("align-moved-copy"),
-            Self::Scene => text!("shell-scene"),
+            Self::Scene => sentence(&text!("inspect-scene")),
             Self::Files => text!("align-files"),
         }
     }

@@ -3,10 +3,10 @@
 use egui::{RichText, ScrollArea, Ui};
 
 use super::{CompareAction, RunChanges, kept_cases::case_row};
-use records::cases::{CaseChange, CaseOutcome, FoundVerdict};
+use records::cases::{CaseChange, FoundVerdict};
 use shell::inspection::library_cache::LibraryView;
 use ui::{
-    language::text,
+    language::{described, text},
     theme::{Theme, font},
 };
 
@@ -43,7 +43,7 @@ pub(super) fn ui(
     let rows: Vec<(String, &CaseChange)> = [
         (text!("compare-worse"), &changes.regressions),
         (text!("compare-better"), &changes.mends),
-        (text!("compare-rescored"), &changes.rescored),
+        (text!("history-figure-score"), &changes.rescored),
     ]
     .into_iter()
     .flat_map(|(word, list)| list.iter().map(move |change| (word.clone(), change)))
@@ -72,7 +72,7 @@ fn words(word: &str, change: &CaseChange, shown: &LibraryView) -> String {
         Some(score) if change.before.part == change.now.part => format!("{score:.2}"),
         _ => found(&change.now),
     };
-    let [was, is] = change.judgements.map(outcome);
+    let [was, is] = change.judgements.map(|outcome| described(&outcome));
     if was == is {
         text!(
             "compare-change-same",
@@ -89,13 +89,5 @@ fn words(word: &str, change: &CaseChange, shown: &LibraryView) -> String {
             before = before,
             now = now,
         )
-    }
-}
-
-fn outcome(outcome: CaseOutcome) -> String {
-    match outcome {
-        CaseOutcome::Right => text!("compare-outcome-right"),
-        CaseOutcome::Refused => text!("compare-outcome-refused"),
-        CaseOutcome::WrongAccepted => text!("compare-outcome-false-accept"),
     }
 }

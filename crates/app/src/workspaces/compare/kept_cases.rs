@@ -15,7 +15,7 @@ use super::{
 use records::cases::{CaseAnswer, CaseOutcome, KeptCase};
 use shell::{inspection::library_cache::LibraryView, session::Session};
 use ui::{
-    language::text,
+    language::{described, text},
     theme::{ROUNDING, Theme, font, space},
     user_error::UserError,
     widgets::{focus_ring, labelled, shortened, text_button},
@@ -360,11 +360,8 @@ fn matrix(ui: &mut Ui, matrix: &Matrix, shown: &LibraryView, acts: &mut Vec<Comp
         let id = ui.scope_id().with(("cell", cell.place));
         let response = ui.interact(rect, id, Sense::click());
         let (colour, sign, word) = match cell.judgement {
-            CaseOutcome::Right => (theme.accepted, "", text!("compare-outcome-right")),
-            CaseOutcome::WrongAccepted => {
-                let word = text!("compare-outcome-false-accept");
-                (theme.rejected, " ×", word)
-            }
+            right @ CaseOutcome::Right => (theme.accepted, "", described(&right)),
+            wrong @ CaseOutcome::WrongAccepted => (theme.rejected, " ×", described(&wrong)),
             CaseOutcome::Refused => (theme.warning, " !", text!("compare-cell-refused")),
         };
         let label = format!("{}, {word}", cell_text(cell, shown));

@@ -1,8 +1,11 @@
 //! The confusion matrix for drawing: counts and verdicts, computed once, and the titles of its rows and columns.
 
-use records::cases::{CaseAnswer, CaseOutcome, Cell, Confusion, Tally, Truth};
+use records::{
+    cases::{CaseAnswer, CaseOutcome, Cell, Confusion, Tally, Truth},
+    history::StoredVerdict,
+};
 use shell::{inspection::library_cache::LibraryView, truth_menu};
-use ui::language::text;
+use ui::language::{described, text};
 
 /// The matrix, row by row.
 #[derive(Debug, Default)]
@@ -75,6 +78,6 @@ pub fn row_title(truth: &Truth, shown: &LibraryView) -> String {
 pub fn column_title(answer: &CaseAnswer, shown: &LibraryView) -> String {
     match answer {
         CaseAnswer::Part(name) => shown.title_of(name).to_owned(),
-        CaseAnswer::NotAccepted => text!("results-not-accepted"),
+        CaseAnswer::NotAccepted => described(&StoredVerdict::Rejected),
     }
 }

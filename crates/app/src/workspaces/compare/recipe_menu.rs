@@ -20,10 +20,11 @@ use shell::{
     session::Session,
 };
 use ui::{
-    language::{parameters, text},
+    language::{Message, described, library_text, parameters, text},
     theme::{Theme, font, space},
     widgets::{
-        self, button_width, labelled, line_edit, shortened, show_scroll_bar, text_button, wrapped,
+        self, button_width, labelled, line_edit, sentence, shortened, show_scroll_bar, text_button,
+        wrapped,
     },
 };
 
@@ -43,7 +44,7 @@ pub(super) fn ui(
     acts: &mut Vec<CompareAction>,
 ) {
     ui.horizontal(|ui| {
-        ui.heading(text!("compare-recipe"));
+        ui.heading(sentence(&text!("inspect-recipe")));
         menu(ui, compare, session, acts);
     });
     if let Some(naming) = &compare.recipes.naming {
@@ -187,7 +188,7 @@ fn entries(
     let list = &compare.recipes.list;
     let own = [
         (BUILT_IN, text!("compare-built-in-hint")),
-        (AS_IN_THE_PAPER, text!("compare-as-in-the-paper-hint")),
+        (AS_IN_THE_PAPER, library_text("recipe-as-in-the-paper")),
     ];
     let own = own.iter().map(|(name, hint)| (*name, hint.as_str()));
     let kept = list.recipes.iter();
@@ -268,7 +269,10 @@ fn name_ui(
     });
     let complaint = match (&checked, is_taken) {
         (Err(error), _) if !text.trim().is_empty() => Some(error.advice()),
-        (Ok(name), true) if !is_same => Some(text!("compare-name-taken", name = name.as_str())),
+        (Ok(name), true) if !is_same => {
+            let taken = Message::new("recipe-exists").with("name", name.as_str());
+            Some(sentence(&described(&taken)))
+        }
         _ => None,
     };
     if let Some(complaint) = complaint {

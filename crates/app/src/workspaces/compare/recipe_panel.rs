@@ -7,13 +7,13 @@ use inspection::pipeline::{
     Recipe,
     parameters::{Group, PARAMETERS, Parameter, Place},
 };
-use records::cases::CaseOutcome;
+use records::{cases::CaseOutcome, history::StoredVerdict};
 use shell::session::Session;
 use ui::{
-    language::{parameters, text, within_sentence},
+    language::{described, parameters, text, within_sentence},
     parameter_control::{self, ParameterChange, fold},
     theme::{Theme, font, space},
-    widgets::line_mark,
+    widgets::{line_mark, sentence},
 };
 
 pub(super) fn ui(
@@ -172,13 +172,13 @@ fn outcome(ui: &mut Ui, compare: &CompareState, session: &Session, acts: &mut Ve
                 (Some(CaseOutcome::Right), false) => {
                     (text!("compare-rightly-refused"), theme.accepted)
                 }
-                (Some(CaseOutcome::WrongAccepted), _) => {
-                    (text!("compare-false-accept"), theme.rejected)
+                (Some(wrong @ CaseOutcome::WrongAccepted), _) => {
+                    (sentence(&described(&wrong)), theme.rejected)
                 }
                 (Some(CaseOutcome::Refused), _) => {
-                    (text!("compare-wrongly-refused"), theme.warning)
+                    (sentence(&text!("compare-cell-refused")), theme.warning)
                 }
-                (None, true) => (text!("results-accepted"), theme.text),
+                (None, true) => (described(&StoredVerdict::Accepted), theme.text),
                 (None, false) => (text!("compare-truth-not-set"), theme.text),
             };
             let word = format!("{word} · {:.0} ms", study.time_ms);

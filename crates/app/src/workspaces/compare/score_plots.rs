@@ -5,7 +5,7 @@ use egui_plot::{Line, LineStyle, PlotTransform, PlotUi, Points, VLine};
 
 use records::cases::{Calibration, ThresholdCounts, TradeOff};
 use ui::{
-    language::text,
+    language::{library_text, text},
     plot::{Axes, Axis, legend},
     theme::{ROUNDING, Theme, font, space},
 };
@@ -149,7 +149,7 @@ pub(super) fn trade_off(ui: &mut Ui, trade_off: &TradeOff, threshold: f64) {
 
 fn words(calibration: &Calibration) -> String {
     let Some(error) = calibration.expected_error else {
-        return text!("compare-calibration-none");
+        return library_text("no-calibration");
     };
     let bins = calibration.bins.iter().filter(|bin| bin.num > 0);
     let bins = bins.map(|bin| {

@@ -8,10 +8,10 @@ use super::{
     fields::{self, complaint},
     thumbnails::{Thumbnails, paint_fitted},
 };
-use inspection::library::{EnrolMethod, PartMeta};
+use inspection::library::PartMeta;
 use shell::session::Session;
 use ui::{
-    language::text,
+    language::{described, text},
     theme::{ROUNDING, Theme, space},
     widgets::grouped,
 };
@@ -105,7 +105,7 @@ fn origin(ui: &mut Ui, part: &PartMeta, number: Option<u32>) {
         "enrol-origin",
         time = at.strftime("%Y-%m-%d %H:%M").to_string(),
         source = &part.enrolled.from,
-        method = described(part.enrolled.how),
+        method = described(&part.enrolled.how),
     );
     let points = text!(
         "enrol-origin-points",
@@ -119,14 +119,4 @@ fn origin(ui: &mut Ui, part: &PartMeta, number: Option<u32>) {
         facts.push(text!("enrol-origin-number", number = number));
     }
     ui.label(RichText::new(facts.join(" · ")).small().weak());
-}
-
-/// Describes what the part was enrolled from.
-fn described(how: EnrolMethod) -> String {
-    match how {
-        EnrolMethod::Segmented => text!("enrol-method-segmented"),
-        EnrolMethod::WholeCloud => text!("enrol-method-whole"),
-        EnrolMethod::Mesh => text!("enrol-method-mesh"),
-        EnrolMethod::Scan => text!("enrol-method-scan"),
-    }
 }

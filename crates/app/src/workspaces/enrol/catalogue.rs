@@ -16,7 +16,7 @@ use shell::inspection::library_cache::LibraryView;
 use ui::{
     language::text,
     theme::{ROUNDING, Theme, font, space},
-    widgets::{Mark, focus_ring, mark, shortened},
+    widgets::{Mark, focus_ring, mark, sentence, shortened},
 };
 
 /// Size of a part's card, logical pixels.
@@ -133,7 +133,7 @@ impl Catalogue {
 fn when(part: &PartMeta) -> [String; 2] {
     let at = part.enrolled.at.to_zoned(jiff::tz::TimeZone::system());
     let seen = if part.simulated {
-        text!("enrol-simulated")
+        sentence(&text!("inspect-simulated"))
     } else {
         part.enrolled.from.clone()
     };

@@ -6,7 +6,10 @@ use inspection::library::{
     Enrolled, LibraryError, LibraryFolder, Part, PartMeta, PartName, PartNaming, Saved, SprayPath,
 };
 use shell::inspection::library_cache::{LibraryCache, LibraryView};
-use ui::{language::text, user_error::UserError};
+use ui::{
+    language::{self, Message, text},
+    user_error::UserError,
+};
 
 /// A change of the library.
 #[derive(Clone, Debug)]
@@ -162,7 +165,11 @@ fn make(
                 text!("enrol-title-changed", part = name.as_str())
             } else {
                 let [before, now] = [&before.name, &words.name].map(PartName::as_str);
-                text!("enrol-renamed", before = before, now = now)
+                language::described(
+                    &Message::new("renamed")
+                        .with("before", before)
+                        .with("now", now),
+                )
             };
             let back = LibraryChange::Rename(words.name.clone(), before);
             (what.into(), back, words.name.clone())

@@ -16,9 +16,9 @@ use inspection::library::PartName;
 use shell::{language::results::painted_from, session::Session};
 use stages::reference::Coverage;
 use ui::{
-    language::{described, keys, text, what_and_advice},
+    language::{advised, described, keys, text, what_and_advice},
     theme::{ROUNDING, Theme, font, space},
-    widgets::{Mark, grouped, menu_list, shortened, text_button},
+    widgets::{Mark, grouped, menu_list, sentence, shortened, text_button},
 };
 
 /// Draws the card.
@@ -144,7 +144,7 @@ fn stored(
         };
         small(ui, shortened(&draft.subject.origin.shown_title(), 40));
         if draft.subject.origin.is_simulated() {
-            small(ui, text!("enrol-simulated"));
+            small(ui, sentence(&text!("inspect-simulated")));
         }
         let num_kept = draft.selection.indices.len();
         small(ui, text!("enrol-points-kept", points = grouped(num_kept)));
@@ -232,9 +232,7 @@ fn reference_menu(ui: &mut Ui, draft: &Draft, session: &Session, actions: &mut V
 pub(super) fn shared_title(ui: &mut Ui, form: &Form, name: &str, session: &Session) {
     let library = session.library.as_deref();
     if let Some(shared) = library.and_then(|library| form.shared_title(name, library)) {
-        let part = shared.other.as_str();
-        let what = text!("enrol-shared-title", part = part, title = shared.title);
-        complaint(ui, &what, &text!("enrol-shared-title-advice"));
+        complaint(ui, &described(&shared), &advised(&shared));
     }
 }
 

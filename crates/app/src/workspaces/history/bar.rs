@@ -10,7 +10,7 @@ use shell::session::Session;
 use ui::{
     language::text,
     theme::{Theme, space},
-    widgets::{labelled, line_edit, menu_list, shortened, text_button},
+    widgets::{labelled, line_edit, menu_list, sentence, shortened, text_button},
 };
 
 /// Draws the bar.
@@ -151,7 +151,7 @@ fn days(ui: &mut Ui, filter: &mut ListFilter) {
 fn verdicts(ui: &mut Ui, filter: &mut ListFilter) {
     let all = std::iter::once((None, text!("history-filter-all-verdicts")));
     let each = VERDICTS.map(|verdict| (Some(verdict), verdict_title(verdict)));
-    let label = text!("history-filter-verdict");
+    let label = sentence(&text!("history-figure-verdict"));
     menu(ui, &label, &mut filter.verdict, all.chain(each));
 }
 

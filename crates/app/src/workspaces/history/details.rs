@@ -13,7 +13,6 @@ use shell::{
     inspection::unit_system::UnitSystem,
     language::results::{
         accepted_or_not, inspection_title, recipe_label, refusal_kind, scene_title, source_title,
-        stored_verdict,
     },
     session::Session,
     standing::past_mark,
@@ -151,7 +150,10 @@ fn verdict(ui: &mut Ui, record: &Record, of_part: &Record, session: &Session) {
         });
     }
     if summary.is_simulated {
-        ui.colored_label(Theme::of(ui).warning, text!("history-simulated"));
+        ui.colored_label(
+            Theme::of(ui).warning,
+            sentence(&text!("enrol-origin-simulated")),
+        );
     }
     let title_of = |name: &str| match &session.library {
         Some(library) => library.title_of(name).to_owned(),
@@ -183,7 +185,7 @@ fn part(ui: &mut Ui, past: &OpenedInspection, units: UnitSystem, actions: &mut V
     let number = past.record.summary.number;
     for record in &past.part {
         let row = &record.summary;
-        let word = stored_verdict(row.verdict);
+        let word = described(&row.verdict);
         let counts = if row.number == head.summary.number {
             format!(" · {}", text!("history-counts"))
         } else {

@@ -4,9 +4,9 @@ use egui::{Grid, Label, RichText, Ui, vec2};
 
 use inspection::pipeline::{Recipe, parameters::Parameter};
 use records::history::{Differences, InspectionSummary};
-use shell::{inspection::unit_system::UnitSystem, language::results::stored_verdict};
+use shell::inspection::unit_system::UnitSystem;
 use ui::{
-    language::{parameters, text},
+    language::{described, parameters, text},
     theme::{Theme, font},
     widgets::{heading, shortened},
 };
@@ -49,7 +49,7 @@ pub(super) fn table(
     let none = || "-".to_owned();
     let rows: [(String, FindingText<'_>); 5] = [
         (text!("history-figure-verdict"), &|of| {
-            stored_verdict(of.verdict)
+            described(&of.verdict)
         }),
         (text!("history-figure-nearest"), &|of| {
             of.nearest.clone().unwrap_or_else(none)

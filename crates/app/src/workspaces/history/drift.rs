@@ -7,7 +7,12 @@ use nalgebra::Point3;
 use geometry::statistics::lower_median;
 use records::history::PoseRecord;
 use shell::inspection::unit_system::UnitSystem;
-use ui::{language::text, plot::over_time, theme::Theme, widgets::heading};
+use ui::{
+    language::text,
+    plot::over_time,
+    theme::Theme,
+    widgets::{heading, sentence},
+};
 
 /// Above this number, parts are drawn in groups by their medians.
 const MOST_DRAWN: usize = 240;
@@ -101,7 +106,7 @@ pub(super) fn ui(ui: &mut Ui, drift: &Drift, units: UnitSystem) {
             let title = format!("{name}: {ends}");
             over_time(ui, &drift.at, &title, &curves, shown, theme);
         };
-    let name = text!("shell-score");
+    let name = sentence(&text!("history-figure-score"));
     one_curve(ui, name, &drift.score, (&score, 0.1, 1.0));
     let name = text!("history-drift-fit");
     one_curve(ui, name, &drift.rms_m, (&length, 0.002, f64::INFINITY));

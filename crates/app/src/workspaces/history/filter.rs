@@ -3,8 +3,11 @@
 use jiff::{Span, Timestamp, Zoned, civil};
 
 use records::history::{Filter, StoredVerdict, VerdictFilter};
-use shell::language::results::{accepted_or_not, searched_texts, stored_verdict};
-use ui::language::text;
+use shell::language::results::{accepted_or_not, searched_texts};
+use ui::{
+    language::{described, text},
+    widgets::sentence,
+};
 
 /// The filter of the list.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -32,7 +35,7 @@ pub(super) const VERDICTS: [VerdictFilter; 4] = [
 /// Name of these verdicts for a person.
 pub(super) fn verdict_title(filter: VerdictFilter) -> String {
     match filter {
-        VerdictFilter::Only(verdict) => stored_verdict(verdict),
+        VerdictFilter::Only(verdict) => described(&verdict),
         VerdictFilter::NotAccepted => accepted_or_not(false),
     }
 }
@@ -61,7 +64,7 @@ impl DateRange {
     pub fn title(self) -> String {
         match self {
             Self::All => text!("history-days-all"),
-            Self::Today => text!("history-days-today"),
+            Self::Today => sentence(&text!("history-today")),
             Self::Week => text!("history-days-week"),
             Self::Month => text!("history-days-month"),
             Self::Typed => text!("history-days-typed"),

@@ -4,9 +4,8 @@ use egui::{Button, Context, DragValue, Grid, Ui, WidgetInfo, vec2};
 
 use super::{HistoryAction, HistoryState};
 use records::history::{ACCEPTED_KEPT, KeepFrames, Retention, Usage};
-use shell::language::results::keep_frames;
 use ui::{
-    language::text,
+    language::{described, text},
     theme::space,
     widgets::{self, labelled, text_button},
 };
@@ -56,7 +55,7 @@ fn rows(ui: &mut Ui, rule: &mut Retention) {
     ui.label(text!("history-keep-which"));
     ui.horizontal(|ui| {
         for keep in KeepFrames::ALL {
-            let title = keep_frames(keep);
+            let title = described(&keep);
             let button = Button::selectable(rule.keep == keep, &title);
             let button = button.frame_when_inactive(true);
             if labelled(ui, button, &title).clicked() {

@@ -11,15 +11,15 @@ use super::{HistoryAction, HistoryState, bar, label::in_one_line};
 use records::history::Summary;
 use shell::{
     inspection::library_cache::LibraryView,
-    language::results::{inspection_title, scene_title, stored_verdict},
+    language::results::{inspection_title, scene_title},
     session::Session,
     standing::past_mark,
     truth_menu::truth_title,
 };
 use ui::{
-    language::{Language, text},
+    language::{Language, described, text},
     theme::{ROUNDING, Theme, font, space},
-    widgets::{fitted_middle, fitted_path, focus_ring, mark, shortened, text_width},
+    widgets::{fitted_middle, fitted_path, focus_ring, mark, sentence, shortened, text_width},
 };
 
 /// Height of a row, logical pixels: a target for a gloved finger.
@@ -172,7 +172,7 @@ const COLUMNS: [Column; 5] = [
         look: |theme| (font::body_strong(), theme.text),
     },
     Column {
-        name: || text!("shell-scene"),
+        name: || sentence(&text!("inspect-scene")),
         width: Width::Share(0.42),
         is_path: true,
         // Show a remark first: it is what most people look for.
@@ -330,7 +330,7 @@ fn row(
         )
     });
     response.widget_info(|| {
-        let verdict = stored_verdict(past.verdict);
+        let verdict = described(&past.verdict);
         let label = text!(
             "history-row",
             count = past.num_below,

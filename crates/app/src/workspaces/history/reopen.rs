@@ -66,7 +66,7 @@ impl HistoryState {
                 Some(Arc::new(past.record.detail.again_with(&cx.session.recipe))),
             ),
             RemakeFor::Open => (
-                text!("history-opening", scene = &scene),
+                text!("shell-opening", name = &scene),
                 past.record.detail.named_recipe().map(Arc::new),
             ),
         };

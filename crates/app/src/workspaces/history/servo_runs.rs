@@ -171,7 +171,7 @@ pub(super) fn details(ui: &mut Ui, runs: &RunsView, units: UnitSystem) {
             ui.label(end.color(sign.colour(theme)));
         });
         if run.is_simulated {
-            ui.colored_label(theme.warning, text!("history-simulated"));
+            ui.colored_label(theme.warning, sentence(&text!("enrol-origin-simulated")));
         }
         if let Some(reason) = &run.stopped {
             let why = sentence(&described(reason));
@@ -202,7 +202,7 @@ pub(super) fn details(ui: &mut Ui, runs: &RunsView, units: UnitSystem) {
             row(ui, &text!("servoing-speed"), &speed);
         }
         row(ui, &text!("servoing-took"), &format!("{:.1} s", run.took_s));
-        row(ui, &text!("servoing-robot"), &run.robot);
+        row(ui, &text!("robot-title"), &run.robot);
         path_row(ui, &text!("servoing-source"), &run.source);
         row(
             ui,

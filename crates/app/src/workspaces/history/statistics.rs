@@ -13,12 +13,12 @@ use inspection::pipeline::RefusalKind;
 use records::history::{PartOutcome, StoredVerdict};
 use shell::{
     inspection::unit_system::UnitSystem,
-    language::results::{refusal_kind, stored_verdict},
+    language::results::refusal_kind,
     session::{ShiftStarts, Source},
     source::source_menu,
 };
 use ui::{
-    language::text,
+    language::{described, text},
     plot::{Axes, Axis, legend},
     theme::{ROUNDING, Theme, font, space},
     widgets::{fitted_middle, heading},
@@ -247,7 +247,7 @@ pub(super) fn ui(ui: &mut Ui, view: &StatisticsView, units: UnitSystem) {
 /// Draws a row for each part.
 fn by_part(ui: &mut Ui, parts: &[(Option<String>, Tally)]) {
     // Translate when drawing: the language may have changed since counting.
-    let unknown = || stored_verdict(StoredVerdict::Unknown);
+    let unknown = || described(&StoredVerdict::Unknown);
     let titled = |part: &Option<String>| part.clone().unwrap_or_else(unknown);
     let parts = parts.iter().map(|(part, tally)| (titled(part), tally));
     by_name(ui, &text!("shell-part"), parts);

@@ -28,7 +28,7 @@ use station::Doubt;
 use ui::{
     language::{described, text},
     theme::{ROUNDING, Theme, font, space},
-    widgets::{focus_ring, heading, row, shortened},
+    widgets::{focus_ring, heading, row, sentence, shortened},
 };
 
 /// Draws the card; with the stand-off of an assumed path only if its nozzle is shown.
@@ -277,7 +277,7 @@ fn score(ui: &mut Ui, inspected: &Inspected, headline: &Headline) {
     let name = if is_mirrored {
         text!("inspect-score-itself")
     } else {
-        text!("shell-score")
+        sentence(&text!("history-figure-score"))
     };
     row(ui, &name, &format!("{score:.2}"));
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 12.0), Sense::hover());
@@ -409,7 +409,7 @@ fn fit(ui: &mut Ui, pose: &PoseEstimate, units: UnitSystem) {
         };
         row(ui, &text!("inspect-runner-up"), &words);
     }
-    let by = format!("{} · {}", stopped(pose.stopped), pose.method.name());
+    let by = format!("{} · {}", described(&pose.stopped), pose.method.name());
     row(
         ui,
         &text!("inspect-iterations", num = pose.iterations.len()),

@@ -4,6 +4,7 @@ use egui::{Color32, FontId, RichText, Ui};
 
 use super::hold::Hold;
 use inspection::pipeline::{Rejection, Verdict, is_like, live::MotionState};
+use records::history::StoredVerdict;
 use shell::{
     inspection::inspected::Inspected,
     language::results::{accepted_or_not, is_called_by_name},
@@ -13,7 +14,7 @@ use shell::{
 use station::Doubt;
 use texts::Described as _;
 use ui::{
-    language::{advised, described, text},
+    language::{Message, advised, described, text},
     theme::{Theme, font, space},
     widgets::{Mark, line_mark, sentence, wrapped},
 };
@@ -113,7 +114,7 @@ impl Headline {
             Verdict::Part { rejected, .. } => rejected,
             Verdict::NoPart(reason) => {
                 return Self {
-                    title: text!("results-no-part"),
+                    title: described(&StoredVerdict::NoPart),
                     state: HeadlineState::NoPart,
                     complaint: Some((described(reason), advised(reason))),
                     ..Self::default()
@@ -183,9 +184,9 @@ impl Headline {
                 text!("inspect-press-capture"),
             ),
             MotionState::Moving => (
-                text!("inspect-moving"),
+                sentence(&text!("live-moving")),
                 text!("inspect-something-moves"),
-                text!("inspect-let-it-hang"),
+                advised(&Message::new("refusal-not-steady")),
             ),
             MotionState::Watching => (
                 text!("inspect-looking"),

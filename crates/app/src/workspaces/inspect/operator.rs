@@ -15,13 +15,13 @@ use super::{
 use records::history::StoredVerdict;
 use shell::{
     frame::operator_bars::column_width,
-    language::results::{recognised_part, stored_verdict},
+    language::results::{mirror_image, recognised_part},
     session::Session,
     standing::past_mark,
     trace::{entry, expect_menu},
 };
 use ui::{
-    language::{Language, text},
+    language::{Language, described, text},
     theme::{Theme, font, space},
     widgets::{Mark, fitted_middle, line_mark, mark, title_rows, wrapped, wrapped_rows},
 };
@@ -296,13 +296,13 @@ fn column(ui: &mut Ui, banner: &Banner, session: &Session, actions: &mut Vec<Ins
                 StoredVerdict::Accepted => row.title.clone(),
                 StoredVerdict::Rejected => recognised_part(row)
                     .map_or_else(|| text!("inspect-not-recognised"), str::to_owned),
-                StoredVerdict::Unknown | StoredVerdict::NoPart => stored_verdict(row.verdict),
+                StoredVerdict::Unknown | StoredVerdict::NoPart => described(&row.verdict),
             };
             let at = row.at.to_zoned(jiff::tz::TimeZone::system());
             let at = at.strftime("%H:%M").to_string();
             // Beside the name there is no room for what a mirror image is of, nor for the 17 letters of a vehicle's number.
             let mirrored = row.mirror_of();
-            let mirrored = mirrored.map(|part| text!("results-title-mirrored", part = part));
+            let mirrored = mirrored.map(mirror_image);
             let serial = Some(row.trace.serial.clone()).filter(|serial| !serial.is_empty());
             let is_wrong = row.is_wrongly_accepted();
             let wrong = is_wrong.then(|| text!("operator-reported-wrong"));
@@ -526,10 +526,11 @@ mod tests {
         assert!(is_cut, "{texts:?}");
     }
 
-    const CHINESE: [&str; 3] = [
+    const CHINESE: [&str; 4] = [
         include_str!("../../../../../assets/language/zh/inspect.ftl"),
         include_str!("../../../../../assets/language/zh/operator.ftl"),
         include_str!("../../../../../assets/language/zh/results.ftl"),
+        include_str!("../../../../texts/language/zh/result.ftl"),
     ];
 
     /// The texts in these message files, with every variable replaced by `variable`.

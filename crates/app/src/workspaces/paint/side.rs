@@ -318,7 +318,7 @@ fn parameters_of(
 
 /// Draws the figures of the film.
 fn check(ui: &mut Ui, planned: &Planned) {
-    heading(ui, &text!("coat-group-film"));
+    heading(ui, &parameters::coat_group(CoatGroup::Film));
     let (film, takes) = (&planned.film.figures, &planned.film.path);
     let micrometres = |metres: f64| format!("{:.1}", 1e6 * metres);
     for (name, value) in [

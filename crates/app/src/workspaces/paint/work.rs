@@ -13,10 +13,11 @@ use robot::paint::{
 use shell::inspection::library_cache::{LibraryCache, LibraryView, LoadedLibrary, StoredPath};
 use stages::reference::Reference;
 use ui::{
-    language::text,
+    language::{library_text, text},
     task::{TaskContext, TaskError},
     user_error::UserError,
     viewport::{Colouring, Line, LineSet, PointSet, Role, vec3},
+    widgets::sentence,
 };
 
 /// Input of planning.
@@ -106,7 +107,7 @@ pub(super) fn planned(
     let PartMeta { coverage, side, .. } = loaded.shown.parts[place];
     let surface = PaintSurface::of(reference, coverage, side).map_err(|error| match error {
         PaintError::SideUnclear { .. } => UserError {
-            what: text!("paint-side-unclear"),
+            what: sentence(&library_text("enrol-side-unclear")),
             advice: text!("paint-side-unclear-advice"),
         },
         error => UserError::of(&error),

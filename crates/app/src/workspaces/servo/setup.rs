@@ -24,7 +24,7 @@ pub(super) fn ui(ui: &mut Ui, session: &Session, actions: &mut Vec<ServoAction>)
     heading(ui, &text!("servoing-part-and-target"));
     part(ui, session, &mut setup);
     target(ui, &mut setup, actions);
-    heading(ui, &text!("servoing-robot"));
+    heading(ui, &text!("robot-title"));
     robot(ui, &mut setup);
     heading(ui, &text!("servoing-limits"));
     limits(ui, session, &mut setup, actions);

@@ -15,7 +15,7 @@ use shell::{
     session::Session,
 };
 use ui::{
-    language::{advised, described, text},
+    language::{Message, advised, described, text},
     theme::{Theme, font, space},
     widgets::{Mark, heading, labelled, line_mark, row, sentence, wrapped},
 };
@@ -75,7 +75,7 @@ fn buttons(ui: &mut Ui, state: &ServoPageState, is_ready: bool, actions: &mut Ve
     }
     ui.weak(text!("servoing-stop-keys"));
     if state.doing() == Some(ServoState::Waiting) && !state.is_stopping() {
-        let label = text!("servoing-next");
+        let label = text!("shell-next");
         let next = Button::new(&label).min_size(vec2(width, space::TARGET));
         if labelled(ui, next, &label).clicked() {
             actions.push(ServoAction::Next);
@@ -132,7 +132,7 @@ fn goes_on(ui: &mut Ui, shown: &RunView, units: UnitSystem) {
     let Some(standing) = &shown.standing else {
         let robot = shown.robot.map(|robot| robot.to_string());
         let what = match robot {
-            Some(robot) => text!("servoing-waits-for-robot", robot = robot),
+            Some(robot) => described(&Message::new("servo-waits-for-robot").with("robot", &*robot)),
             None => text!("servoing-begins"),
         };
         return status(

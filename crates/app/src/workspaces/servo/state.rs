@@ -20,9 +20,10 @@ use shell::{
 use simulate::PartKind;
 use station::servoing::RobotAddress;
 use ui::{
-    language::text,
+    language::{described, text},
     task::{Running, Task, TaskRunner},
     user_error::UserError,
+    widgets::sentence,
 };
 
 /// State of the workspace.
@@ -199,8 +200,9 @@ pub(super) fn ready(session: &Session) -> Result<(String, Option<RealCell>), Use
     let setup = &session.servo;
     let Some(protocol) = setup.robot else {
         if PartKind::ALL.iter().all(|kind| kind.name() != part) {
+            let lacks = Message::new("servo-not-simulated").with("part", library.title_of(part));
             return Err(UserError {
-                what: text!("servoing-not-simulated", part = library.title_of(part)),
+                what: sentence(&described(&lacks)),
                 advice: text!("servoing-not-simulated-advice"),
             });
         }

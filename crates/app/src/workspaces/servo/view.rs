@@ -24,6 +24,7 @@ use ui::{
         scene::mat4,
         vec3,
     },
+    widgets::sentence,
 };
 
 /// How deep the drawn picture of a camera is.
@@ -76,7 +77,7 @@ const PART: Meaning = Meaning {
 };
 const CAMERA: Meaning = Meaning {
     role: Role::Moving,
-    name: || text!("servoing-camera"),
+    name: || sentence(&text!("robot-camera")),
 };
 const TARGET: Meaning = Meaning {
     role: Role::SeenOnce,

@@ -46,9 +46,10 @@ use station::{
     Answered, Answering, Camera, NewFrame, NoFrame, NumberedPart, PartFinder, Subject, traced,
 };
 use ui::{
-    language::text,
+    language::{Message, described, text},
     task::{TaskContext, TaskError},
     user_error::UserError,
+    widgets::sentence,
 };
 
 /// How long a trigger waits for its frame, as in `partsight serve`.
@@ -516,9 +517,12 @@ impl AnsweringSession<'_> {
         let (numbers, problem) = match given.transpose() {
             Ok(None) => (PartNumbers::default(), None),
             Ok(Some(GivenNumbers { numbers, unstored })) => {
-                let problem = unstored.map(|error| UserError {
-                    what: text!("robot-numbers-not-stored", reason = error.to_string()),
-                    advice: error.advice(),
+                let problem = unstored.map(|error| {
+                    let what = Message::new("numbers-not-stored");
+                    UserError {
+                        what: sentence(&described(&what.with("reason", &*error.to_string()))),
+                        advice: error.advice(),
+                    }
                 });
                 (numbers, problem)
             }

@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     action::{DialogRequest, Effect},
-    inspection::inspected::Inspected,
+    inspection::{camera::no_more_frames, inspected::Inspected},
     message::Event,
     notice::{Notice, NoticeTopic},
     session::{ReinspectionPurpose, Session, Shown, Source, UserRole, WorkspaceKind},
@@ -18,7 +18,7 @@ use crate::{
 use inspection::pipeline::live::MAX_AVERAGED;
 use records::history::Traceability;
 use ui::{
-    language::{library_text, text},
+    language::{described, library_text, text},
     user_error::UserError,
 };
 
@@ -319,10 +319,7 @@ fn receive(state: &mut State, answer: LiveAnswer) {
             ended(state);
             let spec = state.session.source.followed();
             let title = spec.map_or_else(String::new, |spec| spec.title());
-            notify(
-                state,
-                Notice::done(text!("live-no-more-frames", source = title)),
-            );
+            notify(state, Notice::done(described(&no_more_frames(&title))));
         }
         LiveAnswer::Stands(_) | LiveAnswer::Rests => {}
     }

@@ -94,7 +94,7 @@ pub(crate) fn words(session: &Session) -> (Mark, String) {
     };
     let Some(status) = &session.live.status else {
         let opening = text!("live-opening");
-        return (Mark::Open, text!("live-is", name = name, what = opening));
+        return (Mark::Open, format!("{name} · {opening}"));
     };
     let (sign, what) = match (&status.source, status.stillness) {
         (SourceState::Lost(_), _) => (Mark::Bad, text!("live-lost")),
@@ -110,7 +110,7 @@ pub(crate) fn words(session: &Session) -> (Mark, String) {
             ),
         ),
     };
-    (sign, text!("live-is", name = name, what = what))
+    (sign, format!("{name} · {what}"))
 }
 
 /// Describes what the verdict is based on.

@@ -1,0 +1,20 @@
+# Outcomes of inspections, estimations and cases, and names of frames
+
+verdict-accepted = Akzeptiert
+verdict-not-accepted = Nicht akzeptiert
+verdict-unknown = Unbekannt
+verdict-no-part = Kein Teil
+mirror-image = Spiegelbild von { $part }
+simulated-frame = simuliertes Bild { $number }
+no-more-frames = { $source } hat keine weiteren Bilder
+keep-all = Alle
+keep-not-accepted = Nicht akzeptierte
+keep-none = Keine
+stopped-converged = konvergiert
+stopped-below-target = unter Zielwert
+stopped-iteration-limit = Iterationsgrenze
+stopped-no-progress = kein Fortschritt
+outcome-right = richtig
+outcome-refused = abgewiesen
+outcome-wrong-accepted = Falschakzeptanz
+no-calibration = Kalibrierung: nichts wurde als Teil erkannt

@@ -1,0 +1,20 @@
+# Outcomes of inspections, estimations and cases, and names of frames
+
+verdict-accepted = Accepted
+verdict-not-accepted = Not accepted
+verdict-unknown = Unknown
+verdict-no-part = No part
+mirror-image = mirror image of { $part }
+simulated-frame = simulated frame { $number }
+no-more-frames = { $source } has no more frames
+keep-all = All
+keep-not-accepted = Not accepted
+keep-none = None
+stopped-converged = converged
+stopped-below-target = below target
+stopped-iteration-limit = iteration limit
+stopped-no-progress = no progress
+outcome-right = right
+outcome-refused = refused
+outcome-wrong-accepted = false accept
+no-calibration = Calibration: nothing was taken for a part

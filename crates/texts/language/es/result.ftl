@@ -1,0 +1,20 @@
+# Outcomes of inspections, estimations and cases, and names of frames
+
+verdict-accepted = Aceptada
+verdict-not-accepted = No aceptada
+verdict-unknown = Desconocida
+verdict-no-part = Sin pieza
+mirror-image = imagen reflejada de { $part }
+simulated-frame = imagen simulada { $number }
+no-more-frames = { $source } no tiene más imágenes
+keep-all = Todas
+keep-not-accepted = Las no aceptadas
+keep-none = Ninguna
+stopped-converged = convergió
+stopped-below-target = bajo el objetivo
+stopped-iteration-limit = límite de iteraciones
+stopped-no-progress = sin avance
+outcome-right = correcto
+outcome-refused = rechazada
+outcome-wrong-accepted = falsa aceptación
+no-calibration = Calibración: no se reconoció ninguna pieza
