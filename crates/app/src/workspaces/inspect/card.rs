@@ -18,7 +18,7 @@ use shell::{
     action::{Action, Effect},
     cell::RobotAction,
     inspection::{inspected::Inspected, unit_system::UnitSystem},
-    language::results::{recipe_label, stopped, traced},
+    language::results::{recipe_label, traced},
     session::{Session, UserRole},
     source::live,
     trace::{entry, expect_menu},

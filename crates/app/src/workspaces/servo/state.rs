@@ -200,7 +200,8 @@ pub(super) fn ready(session: &Session) -> Result<(String, Option<RealCell>), Use
     let setup = &session.servo;
     let Some(protocol) = setup.robot else {
         if PartKind::ALL.iter().all(|kind| kind.name() != part) {
-            let lacks = Message::new("servo-not-simulated").with("part", library.title_of(part));
+            let lacks =
+                texts::Message::new("servo-not-simulated").with("part", library.title_of(part));
             return Err(UserError {
                 what: sentence(&described(&lacks)),
                 advice: text!("servoing-not-simulated-advice"),
