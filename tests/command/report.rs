@@ -8,7 +8,10 @@ use std::{
     time::{Duration, SystemTime},
 };
 
-use crate::workplace::{Ran, Workplace};
+use crate::{
+    kit::csv_column,
+    workplace::{Ran, Workplace},
+};
 
 fn capture(place: &Workplace, part: &str, side: &str, out: &str) {
     place.accepted(&[
@@ -376,11 +379,8 @@ fn an_old_capture_is_in_no_output_a_pose_for_the_robot_unless_it_is_forced() {
     );
     place.accepted(&["history", "export", "--csv", "all.csv"]);
     let table = place.read("all.csv");
-    let last: Vec<&str> = table
-        .lines()
-        .filter_map(|row| row.rsplit(',').nth(2))
-        .collect();
-    assert_eq!(last, ["robot_doubts", "", "old", "old"], "{table}");
+    let doubts = csv_column(&table, "robot_doubts");
+    assert_eq!(doubts, ["", "old", "old"], "{table}");
 
     let why = "the capture is more than 10 minutes old";
     let card = place.accepted(&["inspect", "grille.pcd"]).out;
