@@ -243,8 +243,7 @@ impl<E> Station<E> {
                     refuse_moving(part);
                 }
             }
-            self.has_settled(&scene, &entry);
-            self.settled.push(scene);
+            self.has_settled(scene, &entry);
         }
         let recorded = match mem::replace(&mut self.following, Following::Independent) {
             Following::Independent => Vec::new(),
@@ -310,18 +309,22 @@ impl<E> Station<E> {
             let Some(scene) = self.waiting.pop_front() else {
                 break;
             };
-            self.has_settled(&scene, entry);
-            self.settled.push(scene);
+            self.has_settled(scene, entry);
         }
     }
 
-    /// If this scene is recorded because its part leaves, then with the verdict that it has now.
+    /// Adds a scene to those whose verdicts count. If it is recorded because its part leaves, then with the verdict that it has
+    /// now.
     fn has_settled(
         &mut self,
-        scene: &InspectedScene,
+        scene: InspectedScene,
         entry: &impl Fn(&Inspected<'_>, HungId, Option<Instant>) -> E,
     ) {
-        if let Following::Hanging(follower) = &mut self.following {
+        // First, in case the program fails below.
+        self.settled.push(scene);
+        if let (Following::Hanging(follower), Some(scene)) =
+            (&mut self.following, self.settled.last())
+        {
             let setup = &self.setup;
             follower.settled(scene.at, |index, hung| {
                 let part = setup.part(scene, &scene.subject, &scene.parts[index]);
