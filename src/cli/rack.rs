@@ -172,8 +172,9 @@ fn add(args: &AddArgs, console: &mut Console) -> anyhow::Result<Outcome> {
             )
         ));
     }
-    for (number, part) in (1..).zip(&found) {
-        let numbered = args.each.then(|| number.to_string());
+    for part in &found {
+        // Never that of another place, which would move.
+        let numbered = args.each.then(|| file.new_place_name());
         if let Some(place) = args.place.as_deref().or(numbered.as_deref()) {
             let middle = (part.best_reference(&load.library)).and_then(Reference::middle);
             if let Some(warning) = ambiguity(part) {

@@ -229,6 +229,9 @@ pub(super) fn run(args: &ServeArgs, console: &mut Console) -> anyhow::Result<Out
     let (mut server, events) = start(args, &listeners, &camera)?;
     let recording = (args.recording).start(&load, &trace, database, console)?;
     announce(&server, &listeners, &args.source, &parts, &load, console);
+    for (number, place) in (1..).zip(&recipe.rack.places) {
+        console.note(&format_args!("  place {number}: {}", place.name));
+    }
     if let Some(version) = taken_version(&place, console) {
         console.note(&format_args!("Library: {version}"));
     }

@@ -181,6 +181,9 @@ pub enum NoFrame {
         /// Lower bound of the difference between the clocks.
         ahead: Duration,
     },
+    /// A count was sent, but no line is followed.
+    #[error("a count was sent, but no line is followed")]
+    NoLine,
     /// A part is expected by a number that no part has.
     #[error("no part has the number {number}")]
     UnknownNumber {
@@ -228,6 +231,7 @@ impl NoFrame {
             Self::Late { .. } => "no_frame",
             Self::Unreadable { .. } => "unreadable",
             Self::ClockAhead { .. } => "clock_ahead",
+            Self::NoLine => "no_line",
             Self::UnknownNumber { .. } => "unknown_number",
             Self::UnknownPlace { .. } => "unknown_place",
             Self::Expected(_) => "place_twice",
@@ -256,6 +260,7 @@ impl Advice for NoFrame {
                 "Check that the camera delivers frames; a slow one needs a longer --frame-timeout"
                     .into()
             }
+            Self::NoLine => "Start partsight serve with --line, or TRIGGER without a count".into(),
             Self::UnknownNumber { .. } => {
                 "TRIGGER with numbers that partsight library list shows".into()
             }
@@ -365,6 +370,19 @@ impl Camera {
             }
             Ok(opened.rule.is_new(captured, asked, num_arrived))
         })
+    }
+
+    /// As [`Self::frame_after`], where no line is followed: a trigger with a count would get a pose at another one.
+    pub fn frame_without_line(
+        &self,
+        asked: &Asked,
+        at_most: Duration,
+        is_ending: impl Fn() -> bool,
+    ) -> Result<Captured, NoFrame> {
+        if asked.count.is_some() {
+            return Err(NoFrame::NoLine);
+        }
+        self.frame_after(asked, at_most, is_ending)
     }
 
     /// The newest frame that nobody has taken, if there is one. Does not wait.

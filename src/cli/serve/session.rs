@@ -91,7 +91,8 @@ impl Inspector for ServeSession<'_> {
             return found;
         }
         let interrupt = &self.interrupt;
-        let captured = (self.camera).frame_after(asked, self.frame_timeout, || interrupt.came());
+        let camera = &self.camera;
+        let captured = camera.frame_without_line(asked, self.frame_timeout, || interrupt.came());
         let captured = match captured {
             Ok(captured) => captured,
             Err(why) => return self.without_frame(&why),

@@ -32,7 +32,7 @@ pub enum BadRequest {
         found: String,
     },
     /// The text after the word of a request is not a number.
-    #[error("not a number of a point, a part or an inspection: {found:?}")]
+    #[error("not a number: {found:?}")]
     NoNumber {
         /// The text found, in printable characters.
         found: String,
@@ -148,10 +148,10 @@ impl Advice for BadRequest {
                 "Send SERVO with the number of the part and the pose of the flange, without tool, in the base frame and the convention of this port".into()
             }
             Self::BadOrder { .. } | Self::OrderAndParts => {
-                "Send the order without numbers of parts, and in double quotes if it has blanks: TRIGGER ORDER=\"A 17\" SERIAL=TL-1".into()
+                "Send the order once and without numbers of parts; in ascii and urscript, one with blanks in double quotes: ORDER=\"A 17\"".into()
             }
             Self::Incomplete { .. } => "Send the complete request, with its terminator".into(),
-            Self::NoNumber { .. } => "Send PATH or PART alone, or with the number of a point or a part from 1 and, if need be, the sequence number of a trigger's answer; TRIGGER alone, or with the numbers of the expected parts, each as PART or PLACE=PART, or with an order, in double quotes if it has blanks".into(),
+            Self::NoNumber { .. } => "Send TRIGGER alone, or with PART, PLACE=PART, ENC=COUNT or ORDER=\"A 17\"; PATH or PART alone, or with numbers from 1".into(),
             Self::Magic => "Begin the frame with the bytes 50 53 52 51".into(),
             Self::Version { found, order } => {
                 let other = match order {

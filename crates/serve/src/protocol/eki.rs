@@ -57,15 +57,19 @@ fn request(bytes: &[u8]) -> Result<Request, BadRequest> {
         .strip_prefix("<Robot>")
         .and_then(|text| text.strip_suffix("</Robot>"))
         .ok_or_else(wrong)?;
-    let word = content_of(inner, "Request").ok_or_else(wrong)?;
+    let elements = Elements::read(inner).ok_or_else(wrong)?;
+    let word = elements.text("Request");
+    if word.is_empty() {
+        return Err(wrong());
+    }
     // EKI sends every element with every request, also with those that do not take it.
-    let of = |tag| content_of(inner, tag).unwrap_or_default().as_bytes();
+    let of = |name| elements.text(name).as_bytes();
     let filled = |tag| Some(of(tag)).filter(|number| !number.is_empty());
     let request = of_name(word.as_bytes()).ok_or_else(|| BadRequest::unknown(word.as_bytes()))?;
     if let Request::Servo(_) = request {
         let is_start = number_in(filled("Start").unwrap_or(b"0"))? != 0;
         let names = Convention::Kuka.names().iter();
-        let numbers = names.map(|name| real_in(attribute(inner, "Pose", name).as_bytes()));
+        let numbers = names.map(|name| real_in(elements.pose_attribute(name).as_bytes()));
         let numbers = numbers.collect::<Result<Vec<f64>, _>>()?;
         return servo_request(
             number_in(of("Expected"))?,
@@ -79,7 +83,7 @@ fn request(bytes: &[u8]) -> Result<Request, BadRequest> {
         let request = Request::expecting(expected.collect::<Result<Vec<_>, _>>()?);
         let request = request.ok_or_else(|| BadRequest::unknown(bytes))?;
         let count = filled("Count").map(number_of_count).transpose()?;
-        let text = |tag| unescaped(content_of(inner, tag).unwrap_or_default());
+        let text = |name| unescaped(elements.text(name));
         let order = AskedOrder::new(&text("Order"), &text("Serial"));
         let order = order.ok_or_else(|| BadRequest::bad_order(bytes))?;
         let request = request.at_count(count).of_order(order);
@@ -114,25 +118,71 @@ fn unescaped(text: &str) -> String {
     })
 }
 
-/// Returns the trimmed text between an element's tags.
-fn content_of<'a>(text: &'a str, tag: &str) -> Option<&'a str> {
-    let (_, rest) = text.split_once(&format!("<{tag}>"))?;
-    let (content, _) = rest.split_once(&format!("</{tag}>"))?;
-    Some(content.trim())
-}
+/// The elements that a request may have, each once.
+const ELEMENTS: [&str; 9] = [
+    "Request", "Point", "Sequence", "Expected", "Order", "Serial", "Count", "Start", POSE,
+];
+/// The only one with attributes.
+const POSE: &str = "Pose";
 
-/// Returns the trimmed value of an element's attribute; empty if it is missing.
-fn attribute<'a>(text: &'a str, tag: &str, name: &str) -> &'a str {
-    let element = text.split_once(&format!("<{tag} "));
-    let attributes = element.and_then(|(_, rest)| rest.split_once('>'));
-    let values = attributes.map_or("", |(attributes, _)| attributes);
-    let mut pairs = values.split('"');
-    while let (Some(found), Some(value)) = (pairs.next(), pairs.next()) {
-        if found.trim().strip_suffix('=').map(str::trim) == Some(name) {
-            return value.trim();
+/// The elements of a request: name, attributes and text. One that cannot be read makes the request wrong, since what it asks
+/// for must not be left out.
+struct Elements<'a>(Vec<(&'a str, &'a str, &'a str)>);
+
+impl<'a> Elements<'a> {
+    fn read(inner: &'a str) -> Option<Self> {
+        let mut elements = Self(Vec::new());
+        let mut rest = inner.trim();
+        while !rest.is_empty() {
+            let (tag, after) = rest.strip_prefix('<')?.split_once('>')?;
+            let (tag, is_empty) = match tag.strip_suffix('/') {
+                Some(tag) => (tag, true),
+                None => (tag, false),
+            };
+            let tag = tag.trim_end();
+            let blank = |c: char| c.is_ascii_whitespace();
+            let (name, attributes) = tag.split_once(blank).unwrap_or((tag, ""));
+            let is_new = elements.0.iter().all(|(other, ..)| *other != name);
+            let may_have = attributes.is_empty() || name == POSE;
+            if !(ELEMENTS.contains(&name) && is_new && may_have) {
+                return None;
+            }
+            let (text, after) = if is_empty {
+                ("", after)
+            } else {
+                let (text, after) = after.split_once("</")?;
+                let end = after.strip_prefix(name)?.trim_start().strip_prefix('>')?;
+                (text.trim(), end)
+            };
+            if text.contains('<') {
+                return None;
+            }
+            elements.0.push((name, attributes, text));
+            rest = after.trim_start();
         }
+        Some(elements)
     }
-    ""
+
+    /// The text of an element; empty if it is missing.
+    fn text(&self, name: &str) -> &'a str {
+        let mut elements = self.0.iter();
+        elements
+            .find(|(found, ..)| *found == name)
+            .map_or("", |(.., text)| text)
+    }
+
+    /// An attribute of the pose; empty if it is missing.
+    fn pose_attribute(&self, name: &str) -> &'a str {
+        let mut elements = self.0.iter();
+        let pose = elements.find(|(found, ..)| *found == POSE);
+        let mut pairs = pose.map_or("", |(_, attributes, _)| attributes).split('"');
+        while let (Some(found), Some(value)) = (pairs.next(), pairs.next()) {
+            if found.trim().strip_suffix('=').map(str::trim) == Some(name) {
+                return value.trim();
+            }
+        }
+        ""
+    }
 }
 
 pub(super) fn write(answer: &Answer) -> String {
@@ -216,6 +266,12 @@ mod tests {
         parsed
             .request
             .unwrap_or_else(|| panic!("{text:?} is whole"))
+    }
+
+    /// The text between an element's tags.
+    fn content_of<'a>(text: &'a str, tag: &str) -> Option<&'a str> {
+        let (_, rest) = text.split_once(&format!("<{tag}>"))?;
+        Some(rest.split_once(&format!("</{tag}>"))?.0)
     }
 
     #[test]
@@ -373,6 +429,27 @@ mod tests {
                 "bad_order",
                 "{text}"
             );
+        }
+        assert_eq!(
+            only(&trigger("<Order >4711</Order >")),
+            Ok(asked("4711", ""))
+        );
+        for rest in [
+            "<Order type=\"s\">4711</Order>",
+            "<Order>4711</Ordr>",
+            "<Order>4711",
+            "<order>4711</order>",
+            "<Exp>3</Exp>",
+            "<Expected></Expected><Expected>3</Expected>",
+            "<X><Order>4711</Order></X>",
+            "<Order><X>4711</X></Order>",
+            "<!--<Expected>7</Expected>-->",
+            "<Count x=\"1\">7</Count>",
+            "<Request>STATUS</Request>",
+            "4711",
+        ] {
+            let text = trigger(rest);
+            assert_eq!(only(&text).expect_err(&text).reason(), "not_xml", "{text}");
         }
         for words in ["ORDER=4711", "SERIAL=TL-1", "ENC=7"] {
             let text = trigger(&format!("<Expected>{words}</Expected>"));

@@ -338,7 +338,10 @@ impl Inspector for AnsweringSession<'_> {
             Err(problem) => return Found::error(problem).into(),
         };
         let is_ending = || self.is_ending();
-        let captured = match self.camera.frame_after(asked, FRAME_TIMEOUT, is_ending) {
+        let captured = match self
+            .camera
+            .frame_without_line(asked, FRAME_TIMEOUT, is_ending)
+        {
             Ok(captured) => captured,
             Err(why) => return Found::error((&why).into()).into(),
         };
