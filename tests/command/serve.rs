@@ -340,7 +340,12 @@ fn before_a_rack_each_part_has_its_place_and_an_order_says_what_is_missing() {
     let place = Workplace::new();
     let rack = ["simulate", "--rack", "3", "--rack-kind", "apart"];
     place.accepted(&[&rack[..], &["--seed", "4", "--out", "rack.pcd"]].concat());
-    place.accepted(&["rack", "add", "rack.toml", "rack.pcd", "--each"]);
+    let add = ["rack", "add", "rack.toml", "rack.pcd", "--each"];
+    place.accepted(&add);
+    // Again, they would be further places where others are.
+    let made = place.read("rack.toml");
+    assert_eq!(place.run(&add).code, 2);
+    assert_eq!(place.read("rack.toml"), made);
     // At the fourth place hangs nothing.
     let far = "[[place]]\nname = \"far\"\ncentre_mm = [9000, 0, 2000]\nsize_mm = [99, 99, 99]\n";
     place.write("rack.toml", &(place.read("rack.toml") + far));
@@ -435,6 +440,11 @@ fn without_a_table_an_order_is_not_known_and_a_trigger_without_one_is_answered_a
         "{refused}"
     );
     assert!(refused.contains("--orders"), "{refused}");
+    let counted = asked(&mut robot, "TRIGGER ENC=5\n");
+    assert!(
+        counted.contains(";error;") && counted.contains(";no_line;"),
+        "{counted}"
+    );
     let plain = asked(&mut robot, "TRIGGER\n");
     assert_eq!(plain.split(';').count(), 20, "{plain}");
     assert!(plain.starts_with("TRIGGER;accepted;"), "{plain}");
@@ -448,6 +458,7 @@ fn without_a_table_an_order_is_not_known_and_a_trigger_without_one_is_answered_a
         .map(|line| serde_json::json!([line["status"], line["order"], line["serial"]]));
     let expected = [
         serde_json::json!(["error", "4712", "TL-2"]),
+        serde_json::json!(["error", "4711", null]),
         serde_json::json!(["ok", "4711", null]),
     ];
     assert_eq!(traced.collect::<Vec<_>>(), expected, "{messages}");
