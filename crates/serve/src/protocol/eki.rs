@@ -58,10 +58,7 @@ fn request(bytes: &[u8]) -> Result<Request, BadRequest> {
         .and_then(|text| text.strip_suffix("</Robot>"))
         .ok_or_else(wrong)?;
     let elements = Elements::read(inner).ok_or_else(wrong)?;
-    let word = elements.text("Request");
-    if word.is_empty() {
-        return Err(wrong());
-    }
+    let word = elements.get("Request").ok_or_else(wrong)?;
     // EKI sends every element with every request, also with those that do not take it.
     let of = |name| elements.text(name).as_bytes();
     let filled = |tag| Some(of(tag)).filter(|number| !number.is_empty());
@@ -163,12 +160,16 @@ impl<'a> Elements<'a> {
         Some(elements)
     }
 
+    /// The text of an element, if it has that.
+    fn get(&self, name: &str) -> Option<&'a str> {
+        let mut elements = self.0.iter();
+        let element = elements.find(|(found, ..)| *found == name);
+        element.map(|(.., text)| *text)
+    }
+
     /// The text of an element; empty if it is missing.
     fn text(&self, name: &str) -> &'a str {
-        let mut elements = self.0.iter();
-        elements
-            .find(|(found, ..)| *found == name)
-            .map_or("", |(.., text)| text)
+        self.get(name).unwrap_or_default()
     }
 
     /// An attribute of the pose; empty if it is missing.
