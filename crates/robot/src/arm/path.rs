@@ -20,7 +20,7 @@ pub struct ArmPoint {
     pub is_stop: bool,
 }
 
-/// Parameters of [`check_path`].
+/// Parameters of `check_path`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CheckParams<'a> {
     /// Turns about the nozzle's z axis that are tried, 1..72. The time grows in proportion.

@@ -437,7 +437,7 @@ mod tests {
         );
         for rest in [
             "<Order type=\"s\">4711</Order>",
-            "<Order>4711</Ordr>",
+            "<Order>4711</Serial>",
             "<Order>4711",
             "<order>4711</order>",
             "<Exp>3</Exp>",

@@ -24,7 +24,7 @@ pub(super) type Genes = [f64; 6];
 /// The first three genes are angles.
 const NUM_ANGLES: usize = 3;
 
-/// Parameters of [`minimise`].
+/// Parameters of the genetic algorithm.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default)]
 pub struct GeneticParams {

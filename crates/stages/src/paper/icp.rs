@@ -13,7 +13,7 @@ use geometry::{
     units::{Metres, Radians},
 };
 
-/// Parameters of [`icp`].
+/// Parameters of ICP.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default)]
 pub struct IcpParams {
