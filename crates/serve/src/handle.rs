@@ -8,7 +8,8 @@ use std::{
 use serde_json::{Map, Value};
 
 use super::{
-    answer::{Answer, LibraryStatus, PathStep, Problem, Request, VerdictCode},
+    answer::{Answer, LibraryStatus, PathStep, Problem, VerdictCode},
+    request::Request,
     server::{
         ClientMemory, ClientNews, ClientSlot, Job, ServerSettings, Shared, answer_to,
         inspection_of, triggered,

@@ -28,15 +28,16 @@ mod inspections;
 mod listen;
 mod protocol;
 mod record;
+mod request;
 mod server;
 mod tally;
 
 pub use self::server::bound;
 pub use self::{
     answer::{
-        Answer, AskedOrder, CameraState, CameraStatus, ExpectedNumber, ExpectedNumbers, Found,
-        FrameFacts, FrameParts, LibraryStatus, MAX_COUNT, MissingPart, OnLineNow, PathStep,
-        PoseKind, Problem, RackPlace, RemainingError, Request, ServoRequest, VerdictCode,
+        Answer, CameraState, CameraStatus, Found, FrameFacts, FrameParts, LibraryStatus, MAX_COUNT,
+        MissingPart, OnLineNow, PathStep, PoseKind, Problem, RackPlace, RemainingError,
+        VerdictCode,
     },
     handle::ServerHandle,
     listen::{ListenAddress, ListenError, Listener, OpenToNetwork, parse_address},
@@ -46,6 +47,7 @@ pub use self::{
         binary::{ANSWER_BYTES, MAX_NUMBERS, REQUEST_BYTES, request as binary_request},
     },
     record::{InspectionRecord, InspectionRecorder},
+    request::{AskedOrder, ExpectedNumber, ExpectedNumbers, Request, ServoRequest},
     server::{
         Asked, ClientEvent, ClientNews, ClientSlot, Inspector, ServeError, Server, ServerSettings,
         Unanswered,

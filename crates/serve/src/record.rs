@@ -3,8 +3,9 @@
 use std::time::{Duration, Instant};
 
 use super::{
-    answer::{Answer, CameraStatus, Found, FrameParts, Inspected, Request, Situation},
+    answer::{Answer, CameraStatus, Found, FrameParts, Inspected, Situation},
     inspections::Inspections,
+    request::Request,
 };
 
 /// An inspected part, kept for receivers other than the client that triggered it. Its verdict is judged again at each access,

@@ -20,8 +20,8 @@ use thiserror::Error;
 
 use super::{
     answer::{
-        Answer, AskedOrder, CameraStatus, ExpectedNumbers, Found, FrameParts, Inspected,
-        LibraryStatus, Problem, Request, ServoRequest, Situation, VerdictCode, judged,
+        Answer, CameraStatus, Found, FrameParts, Inspected, LibraryStatus, Problem, Situation,
+        VerdictCode, judged,
     },
     client::Client,
     handle::ServerHandle,
@@ -29,6 +29,7 @@ use super::{
     listen::{ListenAddress, Listener},
     protocol::bad_request::BadRequest,
     record::InspectionRecord,
+    request::{AskedOrder, ExpectedNumbers, Request, ServoRequest},
     tally::Tally,
 };
 use files::words_of;

@@ -213,12 +213,12 @@ pub fn confirm(
         && best < MISSED_MAX_SCORE
         && (PIECE_GOOD_START_COST..PIECE_MAX_START_COST).contains(&least_cost)
     {
-        let nearly = tried
+        let candidates = tried
             .iter()
             .filter(|tried| tried.piece_cost < PIECE_MAX_START_COST);
-        let nearly: Vec<&MatchEntry> = nearly.map(|tried| tried.entry).collect();
+        let candidates: Vec<&MatchEntry> = candidates.map(|tried| tried.entry).collect();
         seen.draw_again(params.seed + 1);
-        let mut again = seen.examine(&nearly, references, least_score);
+        let mut again = seen.examine(&candidates, references, least_score);
         seen.finish(&mut again, references, least_score);
         for again in again {
             let mut before = tried.iter_mut();

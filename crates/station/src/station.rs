@@ -17,7 +17,7 @@ use inspection::{
 };
 use records::history::HungId;
 use robot::RobotFrame;
-use stages::{reference::Reference, scene::SceneCloud};
+use stages::scene::SceneCloud;
 
 /// Inspects files, or what a source delivers. `E` is what is recorded of a part.
 pub struct Station<E> {
@@ -91,7 +91,7 @@ pub struct Settled<E> {
 }
 
 impl StationSetup {
-    /// A part of a scene as it is recorded under that name.
+    /// A part of a scene as it is recorded, of this subject.
     fn part<'a>(
         &'a self,
         scene: &'a InspectedScene,
@@ -111,8 +111,7 @@ impl StationSetup {
 
     /// Middle of the named part, part space, metres.
     fn middle_of(&self, inspection: &Inspection) -> Option<Point3<f64>> {
-        let reference = inspection.best_reference(&self.library);
-        reference.and_then(Reference::middle)
+        inspection.best_reference(&self.library)?.middle()
     }
 }
 

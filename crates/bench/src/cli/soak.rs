@@ -204,7 +204,7 @@ impl Follower {
     fn settled(&mut self, settled: Settled<NewEntry>) {
         for scene in &settled.scenes {
             self.num_accepted += u64::from(scene.parts[0].verdict.is_accepted());
-            // Nobody prints it here, but making it is part of the work.
+            // Not printed, but formatting it is part of the work.
             let parts = self.station.parts(scene);
             drop(Inspected::line_of_all(&parts, &Traceability::default()));
         }

@@ -11,7 +11,8 @@
 //! empty where there are none. With a rack that has places, the number of the part's place is the last field: 0 for none.
 
 use super::{MAX_MESSAGE, plain};
-use crate::answer::{Answer, Request};
+use crate::answer::Answer;
+use crate::request::Request;
 use robot::{Convention, RobotValue};
 
 pub(super) fn write(answer: &Answer, convention: Convention) -> String {
@@ -78,8 +79,9 @@ mod tests {
 
     use super::*;
     use crate::{
-        answer::{Problem, RemainingError, ServoRequest, VerdictCode},
+        answer::{Problem, RemainingError, VerdictCode},
         protocol::tests::refused,
+        request::ServoRequest,
     };
     use geometry::{
         rigid::{PoseDelta, RigidTransform, from_euler_zyx, pose_error},

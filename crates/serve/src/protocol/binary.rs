@@ -61,7 +61,8 @@
 use std::iter;
 
 use super::{ByteOrder, Parsed, bad_request::BadRequest, servo_request};
-use crate::answer::{Answer, ExpectedNumber, RemainingError, Request};
+use crate::answer::{Answer, RemainingError};
+use crate::request::{ExpectedNumber, Request};
 use files::crc32;
 use robot::Convention;
 use stages::segment::MAX_PARTS;
@@ -323,8 +324,9 @@ mod tests {
 
     use super::*;
     use crate::{
-        answer::{Problem, ServoRequest, VerdictCode},
+        answer::{Problem, VerdictCode},
         protocol::tests::refused,
+        request::ServoRequest,
     };
     use geometry::{
         rigid::{PoseDelta, RigidTransform, from_euler_zyx, pose_error},

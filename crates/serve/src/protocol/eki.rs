@@ -17,7 +17,8 @@ use super::{
     line::{expected_in, named, number_in, number_of_count, of_name, real_in, words_of},
     plain, servo_request,
 };
-use crate::answer::{Answer, AskedOrder, Request};
+use crate::answer::Answer;
+use crate::request::{AskedOrder, Request};
 use robot::Convention;
 
 /// Maximum length of a request, bytes, with room for an XML declaration and line breaks.
@@ -254,8 +255,9 @@ mod tests {
 
     use super::*;
     use crate::{
-        answer::{ExpectedNumber, Problem, RemainingError, ServoRequest, VerdictCode},
+        answer::{Problem, RemainingError, VerdictCode},
         protocol::tests::refused,
+        request::{ExpectedNumber, ServoRequest},
     };
     use geometry::{
         rigid::{PoseDelta, RigidTransform, from_euler_zyx, pose_error},

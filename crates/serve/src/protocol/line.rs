@@ -7,7 +7,7 @@
 //! A line ends with LF, CR or both. Case does not matter. Empty lines, and blanks and zeros around a request, are ignored.
 
 use super::{Parsed, bad_request::BadRequest, is_filler, servo_request};
-use crate::answer::{AskedOrder, ExpectedNumber, Request};
+use crate::request::{AskedOrder, ExpectedNumber, Request};
 use robot::Convention;
 
 /// Maximum length of a line, bytes; every request is shorter.
@@ -167,7 +167,7 @@ pub(super) fn number_in(text: &[u8]) -> Result<u32, BadRequest> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::answer::ServoRequest;
+    use crate::request::ServoRequest;
     use geometry::rigid::RigidTransform;
 
     fn parse(bytes: &[u8]) -> Parsed {

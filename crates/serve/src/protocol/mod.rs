@@ -21,7 +21,8 @@ mod line;
 mod urscript;
 
 use self::bad_request::BadRequest;
-use super::answer::{Answer, Request, ServoRequest};
+use super::answer::Answer;
+use super::request::{Request, ServoRequest};
 use robot::{Convention, calibration::CELL_DISTANCES};
 
 /// A protocol between client and server.

@@ -57,11 +57,11 @@ impl Reference {
             });
             let turns =
                 turns.filter_map(|turn| Some((self.share_on_itself(&turn, Search::Field)?, turn)));
-            let mut nearly: Vec<_> = turns
+            let mut candidates: Vec<_> = turns
                 .filter(|(share, _)| *share >= MIN_NEARLY_UNCHANGED_SHARE)
                 .collect();
-            nearly.sort_by(|a, b| b.0.total_cmp(&a.0));
-            nearly.into_iter().find_map(|(_, turn)| {
+            candidates.sort_by(|a, b| b.0.total_cmp(&a.0));
+            candidates.into_iter().find_map(|(_, turn)| {
                 let turn = self.corrected(&turn)?;
                 let share = self.share_on_itself(&turn, Search::Tree)?;
                 let is_own = share >= MIN_UNCHANGED_SHARE && turn.rotation.angle() >= MIN_TURN_RAD;

@@ -1,5 +1,5 @@
-//! E per iteration on a logarithmic scale: one curve per method, the goal of Algorithm 3, and the genetic searches. Also name,
-//! colour and line style by which methods are told apart.
+//! E per iteration on a logarithmic scale: one curve per method, the goal of Algorithm 3, and the genetic searches. Also the
+//! name, colour and line style of each method.
 
 use egui::{Align2, Color32, Painter, Pos2, Rect, Stroke, Ui, Vec2, pos2};
 use egui_plot::{HLine, Line, LineStyle, PlotPoint, PlotTransform, Points, Span};
