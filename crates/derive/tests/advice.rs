@@ -90,6 +90,14 @@ enum OuterError {
     #[advice(error.advice())]
     Damaged { name: String, error: FileError },
 
+    #[error("{0}, for parts")]
+    #[advice(match _0 {
+        FileError::NotFound { .. } => "Enrol a part first".into(),
+        FileError::TooFew { .. } | FileError::Nothing {} => format!("Not with {self}"),
+        other => other.advice(),
+    })]
+    OfParts(FileError),
+
     #[error("cancelled by {0}")]
     #[advice = "Run it again"]
     Cancelled(String),
@@ -184,6 +192,14 @@ fn the_advice_of_an_inner_error_is_handed_on() {
     let (name, error) = ("door".into(), FileError::NoParts);
     let error = OuterError::Damaged { name, error };
     check(&error, "door is damaged", EXAMPLE);
+    let error = OuterError::OfParts(FileError::NoParts);
+    check(&error, "no parts, for parts", EXAMPLE);
+    let error = OuterError::OfParts(FileError::Nothing {});
+    check(&error, "nothing, for parts", "Not with nothing, for parts");
+    let path = "parts".into();
+    let error = OuterError::OfParts(FileError::NotFound { path });
+    let advice = "Enrol a part first";
+    check(&error, "parts is not there, for parts", advice);
     let error = OuterError::Cancelled("the user".into());
     check(&error, "cancelled by the user", "Run it again");
 }
