@@ -45,6 +45,10 @@ enum FileError {
     #[advice(EXAMPLE)]
     NoParts,
 
+    #[error("no places")]
+    #[advice(EXAMPLE)]
+    NoPlaces,
+
     #[error("{0} is none of {1:?}")]
     #[advice("The nearest name is {}", nearest(_0, _1))]
     NoSuchName(String, Vec<&'static str>),
@@ -109,6 +113,9 @@ enum LineError {
     #[error("{0} columns")]
     Columns(usize),
 
+    #[error("a blank")]
+    Blank,
+
     #[error("a heading")]
     #[advice = "Leave the heading out"]
     Heading,
@@ -157,6 +164,7 @@ fn a_sentence_may_have_fields_constants_and_arguments() {
 #[test]
 fn an_expression_may_be_a_text_a_function_a_condition_or_a_method() {
     check(&FileError::NoParts, "no parts", EXAMPLE);
+    check(&FileError::NoPlaces, "no places", EXAMPLE);
     for (kind, advice) in [
         (io::ErrorKind::StorageFull, "Make room on the disk"),
         (io::ErrorKind::TimedOut, "Check the disk"),
@@ -218,5 +226,6 @@ fn the_advice_of_an_enum_is_for_variants_without_one() {
         "2 columns",
         "Correct the line: 2 columns",
     );
+    check(&LineError::Blank, "a blank", "Correct the line: a blank");
     check(&LineError::Heading, "a heading", "Leave the heading out");
 }
