@@ -137,12 +137,13 @@ impl Intrinsics {
 }
 
 /// Why the numbers of a camera are probably wrong.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error, Advice)]
 pub enum CameraDoubt {
     /// The optical axis is far from the middle of the picture.
     #[error(
         "the camera's centre ({:.0}, {:.0}) lies {:.0} pixels from the middle of the picture", centre[0], centre[1], off
     )]
+    #[advice = "Check cx and cy, and whether the picture was cut, mirrored or turned after they were measured: an error of 10 pixels moves a part by 2 cm"]
     OffCentre {
         /// cx and cy, pixels.
         centre: [f64; 2],
@@ -151,6 +152,7 @@ pub enum CameraDoubt {
     },
     /// The focal lengths differ as no camera's do.
     #[error("the camera's focal lengths differ: fx = {fx:.1} and fy = {fy:.1} pixels")]
+    #[advice = "Check fx and fy, and whether the picture was stretched: parts would have the wrong width or height"]
     FocalLengthsDiffer {
         /// Along the rows, pixels.
         fx: f64,
@@ -162,6 +164,7 @@ pub enum CameraDoubt {
         "the camera would see {:.0}° of its surroundings (fx = {fx:.1} pixels at {width} columns)",
         field.degrees()
     )]
+    #[advice = "Check that fx and fy are in pixels of a picture of this size"]
     FieldOfView {
         /// Field of view along the longer side.
         field: Radians,
@@ -170,23 +173,6 @@ pub enum CameraDoubt {
         /// Columns of the picture.
         width: usize,
     },
-}
-
-impl Advice for CameraDoubt {
-    fn advice(&self) -> String {
-        match self {
-            Self::OffCentre { .. } => {
-                "Check cx and cy, and whether the picture was cut, mirrored or turned after they were measured: an error of 10 pixels moves a part by 2 cm"
-            }
-            Self::FocalLengthsDiffer { .. } => {
-                "Check fx and fy, and whether the picture was stretched: parts would have the wrong width or height"
-            }
-            Self::FieldOfView { .. } => {
-                "Check that fx and fy are in pixels of a picture of this size"
-            }
-        }
-        .into()
-    }
 }
 
 /// Pictures of fewer pixels come from no camera, but are made up to try something.

@@ -6,12 +6,13 @@ use std::{
     sync::{Mutex, MutexGuard, PoisonError},
 };
 
+pub use derive::Advice;
 use texts::{Described, Message};
 
 /// Tells the user what to do about an error; kept apart from the error's message.
 ///
 /// The message states what was found and what was expected; the advice is one imperative sentence,
-/// for example "Clear the table and capture again".
+/// for example "Clear the table and capture again". It stands beside the message: `#[derive(Advice)]`.
 pub trait Advice {
     /// Returns what to do next, as one sentence without a line break.
     fn advice(&self) -> String;

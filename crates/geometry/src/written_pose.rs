@@ -16,19 +16,14 @@ pub struct GivenPose {
 }
 
 /// A number of a pose that was probably meant in another unit.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, Advice)]
 #[error("{what} {word} is {value}; did you mean {meant}?")]
+#[advice = "Write the unit after the number: deg or rad, mm, cm or m"]
 pub struct UnitDoubt {
     what: &'static str,
     word: String,
     value: String,
     meant: String,
-}
-
-impl Advice for UnitDoubt {
-    fn advice(&self) -> String {
-        "Write the unit after the number: deg or rad, mm, cm or m".into()
-    }
 }
 
 /// Parses "rx ry rz x y z" as the paper writes its T1..T5 (eq. 15): radians and metres, R = Rz·Ry·Rx. A number may

@@ -168,10 +168,18 @@ pub enum ClientNews {
 }
 
 /// Why a server cannot start.
-#[derive(Debug, Error)]
+#[derive(Debug, Error, Advice)]
 pub enum ServeError {
     /// The system refuses to listen at the address.
     #[error("cannot listen at {at}: {}", words_of_bind(source))]
+    #[advice(match source.kind() {
+        io::ErrorKind::AddrInUse => format!("End the other program, or choose another port with {option}"),
+        io::ErrorKind::AddrNotAvailable => {
+            "Give the address of a network card of this computer, or the port alone".into()
+        }
+        io::ErrorKind::PermissionDenied => "Choose a port from 1024 up".into(),
+        _ => format!("Choose another address with {option}"),
+    })]
     Bind {
         /// The address as given.
         at: String,
@@ -182,6 +190,7 @@ pub enum ServeError {
     },
     /// The system refuses a thread for a listener.
     #[error("the listener's thread cannot be started: {source}")]
+    #[advice = "Close other programs and start again"]
     NoThread {
         /// The underlying error.
         source: io::Error,
@@ -189,13 +198,15 @@ pub enum ServeError {
 }
 
 /// Why a trigger was not inspected.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error, Advice)]
 pub enum Unanswered {
     /// The service is ending.
     #[error("the service is stopping")]
+    #[advice = "Connect again once the service is running"]
     Stopping,
     /// Nobody waits for the answer any more.
     #[error("the client closed the connection before it was its turn")]
+    #[advice = "TRIGGER again, and keep the connection open, for sending too, until the answer has come"]
     Withdrawn,
 }
 
@@ -209,42 +220,12 @@ impl Unanswered {
     }
 }
 
-impl Advice for Unanswered {
-    fn advice(&self) -> String {
-        match self {
-            Self::Stopping => "Connect again once the service is running".into(),
-            Self::Withdrawn => {
-                "TRIGGER again, and keep the connection open, for sending too, until the answer has come"
-                    .into()
-            }
-        }
-    }
-}
-
 fn words_of_bind(error: &io::Error) -> String {
     match error.kind() {
         io::ErrorKind::AddrInUse => "another program listens at this port".into(),
         io::ErrorKind::AddrNotAvailable => "this computer does not have this address".into(),
         io::ErrorKind::PermissionDenied => "this port is reserved for the system".into(),
         _ => words_of(error),
-    }
-}
-
-impl Advice for ServeError {
-    fn advice(&self) -> String {
-        match self {
-            Self::Bind { source, option, .. } => match source.kind() {
-                io::ErrorKind::AddrInUse => {
-                    format!("End the other program, or choose another port with {option}")
-                }
-                io::ErrorKind::AddrNotAvailable => {
-                    "Give the address of a network card of this computer, or the port alone".into()
-                }
-                io::ErrorKind::PermissionDenied => "Choose a port from 1024 up".into(),
-                _ => format!("Choose another address with {option}"),
-            },
-            Self::NoThread { .. } => "Close other programs and start again".into(),
-        }
     }
 }
 

@@ -140,25 +140,34 @@ fn is_dated_after(captured: &Captured, asked: &Asked) -> bool {
 }
 
 /// Why a trigger got no frame.
-#[derive(Clone, Debug, Error)]
+#[derive(Clone, Debug, Error, Advice)]
 pub enum NoFrame {
     /// The camera is lost; reconnecting is automatic.
     #[error("{error}")]
+    #[advice(transparent)]
     Lost {
         /// The underlying error.
         error: Arc<CaptureError>,
     },
     /// The camera cannot be used until somebody intervenes.
     #[error("{error}")]
+    #[advice(transparent)]
     Failed {
         /// The underlying error.
         error: Arc<CaptureError>,
     },
     /// The source has no more frames.
     #[error("the source has ended")]
+    #[advice = "TRIGGER again: the source is being reopened"]
     Ended,
     /// No frame arrived in time.
     #[error("no frame arrived within {} s of the trigger", waited.as_secs_f64())]
+    #[advice(match rule {
+        NewFrame::WrittenAfter => {
+            "Have a new file written to the watched folder after each trigger; if that takes longer, raise --frame-timeout"
+        }
+        _ => "Check that the camera delivers frames; a slow one needs a longer --frame-timeout",
+    })]
     Late {
         /// How long the trigger waited.
         waited: Duration,
@@ -167,6 +176,7 @@ pub enum NoFrame {
     },
     /// A frame arrived that cannot be read.
     #[error("{name}: {error}")]
+    #[advice(error.advice())]
     Unreadable {
         /// Name of the frame, to show to the operator.
         name: String,
@@ -175,6 +185,7 @@ pub enum NoFrame {
     },
     /// A file was seen before it was written, by the clock of its disk.
     #[error("{name}: the clock of the disk is at least {:.1} s ahead of this computer's", ahead.as_secs_f64())]
+    #[advice = "Set both clocks from the same time server: otherwise the age of a file is not known"]
     ClockAhead {
         /// Name of the file.
         name: String,
@@ -183,15 +194,18 @@ pub enum NoFrame {
     },
     /// A count was sent, but no line is followed.
     #[error("a count was sent, but no line is followed")]
+    #[advice = "Start partsight serve with --line, or TRIGGER without a count"]
     NoLine,
     /// A part is expected by a number that no part has.
     #[error("no part has the number {number}")]
+    #[advice = "TRIGGER with numbers that partsight library list shows"]
     UnknownNumber {
         /// The number.
         number: u32,
     },
     /// A part is expected at a place by a number that no place has.
     #[error("the rack has {num_places} places, and none has the number {number}")]
+    #[advice = "TRIGGER with numbers of places by their order in the rack file, from 1; serve takes that with --rack"]
     UnknownPlace {
         /// The number.
         number: u32,
@@ -200,18 +214,23 @@ pub enum NoFrame {
     },
     /// The parts cannot be expected: two are at a place.
     #[error(transparent)]
+    #[advice(transparent)]
     Expected(#[from] ExpectedError),
     /// The table of orders does not say what is expected.
     #[error(transparent)]
+    #[advice(transparent)]
     Order(#[from] OrderError),
     /// The table of orders cannot be read.
     #[error(transparent)]
+    #[advice(transparent)]
     Orders(Arc<OrdersError>),
     /// An order is named, and there is no table of orders.
     #[error("an order is named, and there is no table of orders")]
+    #[advice = "Start serve with --orders, or open the table in the window; or TRIGGER with the numbers of the expected parts"]
     NoOrders,
     /// The service is ending.
     #[error(transparent)]
+    #[advice(transparent)]
     Unanswered(#[from] Unanswered),
 }
 
@@ -237,45 +256,6 @@ impl NoFrame {
             Self::Expected(_) => "place_twice",
             Self::Order(_) | Self::Orders(_) | Self::NoOrders => "not_known",
             Self::Unanswered(why) => why.reason(),
-        }
-    }
-}
-
-impl Advice for NoFrame {
-    fn advice(&self) -> String {
-        match self {
-            Self::Lost { error } | Self::Failed { error } | Self::Unreadable { error, .. } => {
-                error.advice()
-            }
-            Self::ClockAhead { .. } => {
-                "Set both clocks from the same time server: otherwise the age of a file is not known"
-                    .into()
-            }
-            Self::Ended => "TRIGGER again: the source is being reopened".into(),
-            Self::Late { rule: NewFrame::WrittenAfter, .. } => {
-                "Have a new file written to the watched folder after each trigger; if that takes longer, raise --frame-timeout"
-                    .into()
-            }
-            Self::Late { .. } => {
-                "Check that the camera delivers frames; a slow one needs a longer --frame-timeout"
-                    .into()
-            }
-            Self::NoLine => "Start partsight serve with --line, or TRIGGER without a count".into(),
-            Self::UnknownNumber { .. } => {
-                "TRIGGER with numbers that partsight library list shows".into()
-            }
-            Self::UnknownPlace { .. } => {
-                "TRIGGER with numbers of places by their order in the rack file, from 1; serve takes that with --rack"
-                    .into()
-            }
-            Self::Expected(why) => why.advice(),
-            Self::Order(why) => why.advice(),
-            Self::Orders(why) => why.advice(),
-            Self::NoOrders => {
-                "Start serve with --orders, or open the table in the window; or TRIGGER with the numbers of the expected parts"
-                    .into()
-            }
-            Self::Unanswered(why) => why.advice(),
         }
     }
 }

@@ -145,23 +145,16 @@ pub struct Preparation {
 }
 
 /// Why the systems could not be prepared.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error, geometry::error::Advice)]
 pub enum SystemsError {
     /// A reference cannot be described.
     #[error(transparent)]
+    #[advice(transparent)]
     Surface(#[from] SurfaceError),
     /// A reference cannot be prepared.
     #[error(transparent)]
+    #[advice(transparent)]
     Reference(#[from] ReferenceError),
-}
-
-impl geometry::error::Advice for SystemsError {
-    fn advice(&self) -> String {
-        match self {
-            Self::Surface(error) => error.advice(),
-            Self::Reference(error) => error.advice(),
-        }
-    }
 }
 
 /// All systems, prepared with the references of one library.

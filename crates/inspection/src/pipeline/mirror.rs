@@ -294,24 +294,21 @@ pub struct MirrorTally {
 }
 
 /// Everything that was recognised fits only as its mirror image.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, Advice)]
 #[error(
     "everything that was recognised ({num_captures} captures: {}) fits only as its mirror image: left and right may \
      be swapped in the images",
     parts.join(", ")
+)]
+#[advice(
+    "If these are the enrolled parts and not those of the other side: {}",
+    Message::new("put-right").text(Language::English)
 )]
 pub struct OnlyMirrored {
     /// Captures that show mirror images.
     pub num_captures: usize,
     /// The parts whose mirror images they show.
     pub parts: Vec<String>,
-}
-
-impl Advice for OnlyMirrored {
-    fn advice(&self) -> String {
-        let put_right = Message::new("put-right").text(Language::English);
-        format!("If these are the enrolled parts and not those of the other side: {put_right}")
-    }
 }
 
 impl MirrorTally {

@@ -280,7 +280,8 @@ pub struct Parameter<R: Parameters = Recipe> {
 }
 
 /// A value that a parameter cannot have.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error, Advice)]
+#[advice = "The previous value stays"]
 pub enum BadValue {
     /// Outside the valid range.
     #[error("{name} cannot be {found}: it ranges from {range}")]
@@ -306,12 +307,6 @@ impl BadValue {
         let (Self::OutOfRange { name, .. } | Self::NoSuchOption { name }) = &mut self;
         *name = format!("{key} ({name})");
         self
-    }
-}
-
-impl Advice for BadValue {
-    fn advice(&self) -> String {
-        "The previous value stays".into()
     }
 }
 
@@ -467,7 +462,8 @@ impl<R: Parameters> Setting<R> {
 }
 
 /// Why a text is not a [`Setting`].
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error, Advice)]
+#[advice = "Write NAME=VALUE; docs/guide/parameters.md and docs/guide/paint.md list names, units and ranges"]
 pub enum SettingError {
     /// The text has no equals sign.
     #[error("there is no = between name and value")]
@@ -511,12 +507,6 @@ pub enum SettingError {
     /// The value is outside the valid range.
     #[error(transparent)]
     BadValue(#[from] BadValue),
-}
-
-impl Advice for SettingError {
-    fn advice(&self) -> String {
-        "Write NAME=VALUE; docs/guide/parameters.md and docs/guide/paint.md list names, units and ranges".into()
-    }
 }
 
 impl<R: Parameters> FromStr for Setting<R> {

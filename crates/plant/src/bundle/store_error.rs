@@ -13,10 +13,11 @@ use files::{advice_on, words_of};
 use geometry::error::Advice;
 
 /// Why a store does not do what it is asked.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, Advice)]
 pub enum StoreError {
     /// A variable of the environment cannot be used.
     #[error("{name} {problem}")]
+    #[advice = "Correct {name} in the environment"]
     Setting {
         /// The variable.
         name: &'static str,
@@ -25,12 +26,15 @@ pub enum StoreError {
     },
     /// The endpoint is without encryption, which nobody allowed.
     #[error("AWS_ENDPOINT begins with http://, so nothing would be encrypted")]
+    #[advice = "Give AWS_ENDPOINT an address that begins with https://, or allow it with AWS_ALLOW_HTTP=true if nobody else can listen on this network"]
     Unencrypted,
     /// The environment has no credentials, and this computer has none from Amazon's cloud.
     #[error("there are no credentials in the environment")]
+    #[advice = "Set AWS_ACCESS_KEY_ID and AWS_SECRET_ACCESS_KEY in the environment"]
     NoCredentials,
     /// The host does not answer, or the connection broke.
     #[error("{host} cannot be reached: {cause}")]
+    #[advice(CHECK_NETWORK)]
     Unreachable {
         /// Host and port.
         host: String,
@@ -39,6 +43,7 @@ pub enum StoreError {
     },
     /// The host's certificate is not to be trusted.
     #[error("{host} cannot prove who it is: {cause}")]
+    #[advice = "Check AWS_ENDPOINT and the clock; if the plant has its own authority, name the file with its certificate in SSL_CERT_FILE"]
     Certificate {
         /// Host and port.
         host: String,
@@ -47,30 +52,41 @@ pub enum StoreError {
     },
     /// The answer takes too long.
     #[error("no answer in time")]
+    #[advice(CHECK_NETWORK)]
     Late,
     /// The store does not know the credentials.
     #[error("the store does not accept the credentials")]
+    #[advice = "Check AWS_ACCESS_KEY_ID, AWS_SECRET_ACCESS_KEY and AWS_SESSION_TOKEN in the environment"]
     WrongCredentials,
     /// The credentials are known, but not for this.
     #[error("the credentials do not allow this")]
+    #[advice = "Ask whoever runs the store for permission to list and read this bucket, and to publish also to write"]
     Forbidden,
     /// The clocks differ too much for a signature.
     #[error("the clocks of this computer and of the store differ too much")]
+    #[advice = "Set the clock of this computer"]
     Clock,
     /// The bucket does not exist.
     #[error("there is no such bucket")]
+    #[advice = "Check the name behind s3://, and AWS_ENDPOINT in the environment; a bucket is never created"]
     NoSuchBucket,
     /// The bucket is elsewhere.
     #[error("the bucket is in another region, or at another address")]
+    #[advice = "Set AWS_REGION to the region of the bucket, and check AWS_ENDPOINT"]
     Elsewhere,
     /// Any other answer that is an error.
     #[error("the store answers {answer}")]
+    #[advice = "Try again later; if the answer stays the same, ask whoever runs the store"]
     Answer {
         /// Status, and the code of S3 if there is one.
         answer: String,
     },
     /// The system does not read or write the folder.
     #[error("{cause}")]
+    #[advice(match kind {
+        io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => advice_on(&(*kind).into()),
+        _ => "Check that the folder exists, that its drive or share is connected, and that you may use it",
+    })]
     Folder {
         /// The kind of error, which decides on the advice.
         kind: io::ErrorKind,
@@ -79,6 +95,7 @@ pub enum StoreError {
     },
     /// Anything else.
     #[error("{cause}")]
+    #[advice = "Check the address of the store and the network; the installed library works without the store"]
     Other {
         /// The client's message.
         cause: String,
@@ -192,54 +209,7 @@ fn words_of_certificate(error: &CertificateError) -> String {
     }
 }
 
-impl Advice for StoreError {
-    fn advice(&self) -> String {
-        match self {
-            Self::Setting { name, .. } => format!("Correct {name} in the environment"),
-            Self::Unencrypted => {
-                "Give AWS_ENDPOINT an address that begins with https://, or allow it with AWS_ALLOW_HTTP=true if nobody else \
-                 can listen on this network"
-                    .into()
-            }
-            Self::NoCredentials => {
-                "Set AWS_ACCESS_KEY_ID and AWS_SECRET_ACCESS_KEY in the environment".into()
-            }
-            Self::Unreachable { .. } | Self::Late => {
-                "Check the network, and AWS_ENDPOINT in the environment; the installed library works without the store"
-                    .into()
-            }
-            Self::Certificate { .. } => {
-                "Check AWS_ENDPOINT and the clock; if the plant has its own authority, name the file with its certificate in \
-                 SSL_CERT_FILE"
-                    .into()
-            }
-            Self::WrongCredentials => {
-                "Check AWS_ACCESS_KEY_ID, AWS_SECRET_ACCESS_KEY and AWS_SESSION_TOKEN in the environment".into()
-            }
-            Self::Forbidden => {
-                "Ask whoever runs the store for permission to list and read this bucket, and to publish also to write".into()
-            }
-            Self::Clock => "Set the clock of this computer".into(),
-            Self::NoSuchBucket => {
-                "Check the name behind s3://, and AWS_ENDPOINT in the environment; a bucket is never created".into()
-            }
-            Self::Elsewhere => "Set AWS_REGION to the region of the bucket, and check AWS_ENDPOINT".into(),
-            Self::Answer { .. } => {
-                "Try again later; if the answer stays the same, ask whoever runs the store".into()
-            }
-            Self::Folder {
-                kind: kind @ (io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded),
-                ..
-            } => advice_on(&(*kind).into()).into(),
-            Self::Folder { .. } => {
-                "Check that the folder exists, that its drive or share is connected, and that you may use it".into()
-            }
-            Self::Other { .. } => {
-                "Check the address of the store and the network; the installed library works without the store".into()
-            }
-        }
-    }
-}
+const CHECK_NETWORK: &str = "Check the network, and AWS_ENDPOINT in the environment; the installed library works without the store";
 
 #[cfg(test)]
 mod tests {

@@ -77,13 +77,15 @@ const UNITS: [f64; 5] = [0.001, 0.0002, 0.0001, 0.00025, 0.000_125];
 static COUNT: AtomicU32 = AtomicU32::new(0);
 
 /// Why a frame cannot be written or read.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Advice)]
 pub enum FrameError {
     /// A file cannot be written or read.
     #[error(transparent)]
+    #[advice(transparent)]
     File(#[from] FileError),
     /// The folder cannot be written to.
     #[error("{}: the frame cannot be written: {}", path.display(), words_of(source))]
+    #[advice(advice_on(source))]
     Unwritable {
         /// The folder or file.
         path: PathBuf,
@@ -92,6 +94,7 @@ pub enum FrameError {
     },
     /// The kept frame is damaged.
     #[error("{}: the kept frame is damaged: {what}", path.display())]
+    #[advice = "Inspect the part again: this frame cannot be used"]
     Damaged {
         /// The file.
         path: PathBuf,
@@ -116,16 +119,6 @@ impl From<FrameError> for io::Error {
             FrameError::File(FileError::Write { source, .. })
             | FrameError::Unwritable { source, .. } => source,
             error => Self::other(error),
-        }
-    }
-}
-
-impl Advice for FrameError {
-    fn advice(&self) -> String {
-        match self {
-            Self::File(error) => error.advice(),
-            Self::Unwritable { source, .. } => advice_on(source).into(),
-            Self::Damaged { .. } => "Inspect the part again: this frame cannot be used".into(),
         }
     }
 }

@@ -13,10 +13,11 @@ use robot::Convention;
 use stages::segment::MAX_PARTS;
 
 /// Why a report could not be written.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Advice)]
 pub enum ReportError {
     /// The folder cannot be created.
     #[error("{}: cannot make the report's folder: {}", path.display(), words_of(source))]
+    #[advice(advice_on(source))]
     Folder {
         /// The folder.
         path: PathBuf,
@@ -25,16 +26,8 @@ pub enum ReportError {
     },
     /// A file cannot be written.
     #[error(transparent)]
+    #[advice(transparent)]
     File(#[from] FileError),
-}
-
-impl Advice for ReportError {
-    fn advice(&self) -> String {
-        match self {
-            Self::Folder { source, .. } => advice_on(source).into(),
-            Self::File(error) => error.advice(),
-        }
-    }
 }
 
 /// Name of the picture of all stages.

@@ -26,7 +26,8 @@ pub struct EmptyCell {
 }
 
 /// Reason why a capture cannot be the empty cell.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error, Advice)]
+#[advice = "Capture the empty cell as an organised PCD or a depth PNG, with the camera that captures the parts"]
 pub enum EmptyCellError {
     /// The capture has no rows and columns.
     #[error("the capture of the empty cell is not a picture: its points have no rows and columns")]
@@ -34,12 +35,6 @@ pub enum EmptyCellError {
     /// The capture has other rows and columns than the scene, so it is from another camera.
     #[error("the empty cell was captured with another number of rows or columns, and is not used")]
     OtherPicture,
-}
-
-impl Advice for EmptyCellError {
-    fn advice(&self) -> String {
-        "Capture the empty cell as an organised PCD or a depth PNG, with the camera that captures the parts".into()
-    }
 }
 
 impl SceneCloud {

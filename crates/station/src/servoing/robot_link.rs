@@ -102,19 +102,22 @@ impl FromStr for RobotAddress {
 }
 
 /// Why a robot cannot be reached.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Advice)]
 pub enum LinkError {
     /// The text names no robot.
     #[error("{text:?} is not the address of a robot")]
+    #[advice = "Give egm=IP:PORT or rsi=IP:PORT of this computer, or ur=IP of the robot, for example egm=192.168.1.10:6510"]
     Address {
         /// The text.
         text: String,
     },
     /// The protocol needs a model of the arm.
     #[error("RSI corrects joints, so the arm must be known")]
+    #[advice = "Add --arm and --nozzle"]
     NoArm,
     /// The system does not listen there.
     #[error("cannot listen at {at}: {}", words_of(source))]
+    #[advice = "Give the address of this computer's network card that leads to the robot, and end other programs that use the port"]
     Listen {
         /// The address.
         at: SocketAddr,
@@ -123,6 +126,7 @@ pub enum LinkError {
     },
     /// The controller does not answer.
     #[error("no connection to the robot at {at}: {}", words_of(source))]
+    #[advice = "Check the robot's address and cable, and that it is set to remote control"]
     Connect {
         /// The address.
         at: SocketAddr,
@@ -131,6 +135,7 @@ pub enum LinkError {
     },
     /// The connection broke.
     #[error("the connection to the robot at {at} is lost: {}", words_of(source))]
+    #[advice = "The robot stops by itself. Check the cable and the controller, and servo again"]
     Lost {
         /// The address.
         at: SocketAddr,
@@ -139,28 +144,8 @@ pub enum LinkError {
     },
     /// The controller speaks otherwise.
     #[error(transparent)]
+    #[advice(transparent)]
     Stream(#[from] StreamError),
-}
-
-impl Advice for LinkError {
-    fn advice(&self) -> String {
-        match self {
-            Self::Address { .. } => {
-                "Give egm=IP:PORT or rsi=IP:PORT of this computer, or ur=IP of the robot, for example egm=192.168.1.10:6510".into()
-            }
-            Self::NoArm => "Add --arm and --nozzle".into(),
-            Self::Listen { .. } => {
-                "Give the address of this computer's network card that leads to the robot, and end other programs that use the port".into()
-            }
-            Self::Connect { .. } => {
-                "Check the robot's address and cable, and that it is set to remote control".into()
-            }
-            Self::Lost { .. } => {
-                "The robot stops by itself. Check the cable and the controller, and servo again".into()
-            }
-            Self::Stream(error) => error.advice(),
-        }
-    }
 }
 
 /// A connection to a controller.

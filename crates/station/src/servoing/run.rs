@@ -79,44 +79,31 @@ pub struct ServoOutcome {
 }
 
 /// Why a run cannot begin.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Advice)]
 pub enum ServoRunError {
     /// The part cannot be servoed to.
     #[error(transparent)]
+    #[advice(transparent)]
     Setup(#[from] SetupError),
     /// The simulated cell lacks the part.
     #[error("{}", Message::new("servo-not-simulated").with("part", part.as_str()))]
+    #[advice("Choose one of {}", PartKind::ALL.map(PartKind::name).join(", "))]
     NotSimulated {
         /// Its name.
         part: String,
     },
     /// The simulated cell cannot be arranged.
     #[error(transparent)]
+    #[advice = "Try another seed or another part, of the library that comes with the program"]
     Cell(#[from] SimulatedCellError),
     /// A parameter is out of its range.
     #[error(transparent)]
+    #[advice(transparent)]
     Params(#[from] ServoError),
     /// The robot cannot be reached.
     #[error(transparent)]
+    #[advice(transparent)]
     Link(#[from] LinkError),
-}
-
-impl Advice for ServoRunError {
-    fn advice(&self) -> String {
-        match self {
-            Self::Setup(error) => error.advice(),
-            Self::NotSimulated { .. } => {
-                let known = PartKind::ALL.map(PartKind::name).join(", ");
-                format!("Choose one of {known}")
-            }
-            Self::Cell(_) => {
-                "Try another seed or another part, of the library that comes with the program"
-                    .into()
-            }
-            Self::Params(error) => error.advice(),
-            Self::Link(error) => error.advice(),
-        }
-    }
 }
 
 /// How wrong the simulated calibration is at most.

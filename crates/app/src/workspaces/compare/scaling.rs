@@ -79,27 +79,20 @@ impl Scaling {
 }
 
 /// Why the measurement failed.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Advice)]
 pub enum ScalingError {
     /// A simulated part could not be enrolled.
     #[error(transparent)]
+    #[advice(transparent)]
     Enrol(#[from] EnrolError),
     /// The measurement was cancelled.
     #[error(transparent)]
+    #[advice = "Run it again"]
     Cancelled(#[from] Cancelled),
     /// The query has no outline.
     #[error("the simulated query shows no part")]
+    #[advice = "Report this: it is an error of the program"]
     NoQuery,
-}
-
-impl Advice for ScalingError {
-    fn advice(&self) -> String {
-        match self {
-            Self::Enrol(error) => error.advice(),
-            Self::Cancelled(_) => "Run it again".into(),
-            Self::NoQuery => "Report this: it is an error of the program".into(),
-        }
-    }
 }
 
 /// Ranks a simulated front door over 8, 16, 32 and so on up to `most` references.
