@@ -229,7 +229,8 @@ fn tell_of(news: HistoryEvent, console: &Console) {
                 console.note(&line);
             }
         }
-        HistoryEvent::NotChanged { what, advice } => {
+        HistoryEvent::NotChanged { what, advice }
+        | HistoryEvent::FramesNotKept { what, advice } => {
             console.advise(&format_args!("warning: {what}"), &advice);
         }
         HistoryEvent::Swept(swept) if swept.num_frames > USUALLY_SWEPT => {

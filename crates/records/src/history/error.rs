@@ -7,7 +7,7 @@ use std::{
 
 use rusqlite::ErrorCode;
 
-use super::frames::FrameError;
+use super::frames::{FrameError, FrameLoss};
 use files::{FileError, advice_on, words_of};
 use geometry::error::Advice;
 
@@ -93,6 +93,12 @@ pub enum HistoryError {
     /// A frame cannot be written or read.
     #[error(transparent)]
     Frame(#[from] FrameError),
+    /// A frame that the rule keeps cannot be written; its inspection is.
+    #[error("frames are no longer kept: {source}")]
+    FramesNotKept {
+        /// The underlying error.
+        source: FrameError,
+    },
     /// The table cannot be written.
     #[error(transparent)]
     Table(#[from] FileError),
@@ -192,6 +198,15 @@ impl Advice for HistoryError {
                 "Try again; if it happens again, move the file away: a new one is then started".into()
             }
             Self::Frame(error) => error.advice(),
+            Self::FramesNotKept { source } => match source.loss() {
+                FrameLoss::DiskFull => {
+                    "Make room on the disk, or keep fewer frames (`partsight history keep`; in the window, Frames… in History): until then, inspections are written without them".into()
+                }
+                FrameLoss::NotWritable | FrameLoss::SlowDisk => format!(
+                    "{}; until then, inspections are written without frames",
+                    source.advice()
+                ),
+            },
             Self::Table(error) => error.advice(),
             Self::NoSuchInspection { .. } => {
                 "Use one of the numbers that `partsight history list` shows".into()

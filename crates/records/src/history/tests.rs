@@ -576,31 +576,37 @@ fn a_serial_number_that_comes_later_is_added_to_the_inspections_of_its_part_that
 
 #[cfg(unix)]
 #[test]
-fn whichever_call_fails_an_inspection_is_in_the_history_with_its_frame_or_not_at_all() {
+fn whichever_call_fails_an_inspection_is_in_the_history_with_its_frame_or_says_why_not_or_not_at_all()
+ {
     use files::disk::faults::{Writer, with_advice};
 
     let add = |folder: &std::path::Path, seconds| -> Result<(), HistoryError> {
         let mut history = History::open(folder)?.history;
         let entry = history_entry(seconds, StoredVerdict::Accepted, "fender");
-        history.add(&entry, &ALL).map(|_| ())
+        // A frame that is not kept is reported, too.
+        let (_, frame) = history.write(&entry, &ALL)?;
+        frame.map(|is_kept| assert!(is_kept))
     };
     Writer {
-        test: "history::tests::whichever_call_fails_an_inspection_is_in_the_history_with_its_frame_or_not_at_all",
+        test: "history::tests::whichever_call_fails_an_inspection_is_in_the_history_with_its_frame_or_says_why_not_or_not_at_all",
         prepare: &|folder| add(folder, 1).expect("written"),
         write: &|folder| add(folder, 2).map_err(|error| with_advice(&error)),
         state: &|folder| {
             let history = open_history(folder);
             let page = history.page(&Filter::default(), 0, 10).expect("asked");
+            let mut num_frames = 0;
             for row in &page.rows {
                 let record = history.known(row.number).expect("there");
-                assert!(history.scene(&record).expect("read").is_some());
+                let has_frame = history.scene(&record).expect("read").is_some();
+                assert_ne!(has_frame, record.detail.frame_loss.is_some());
+                num_frames += usize::from(has_frame);
             }
             // Files that no row refers to were removed.
             let frames = std::fs::read_dir(history.frames_folder()).expect("listed");
-            assert_eq!(frames.count(), page.rows.len() + 1);
-            format!("{} inspections", page.num_all)
+            assert_eq!(frames.count(), num_frames + 1);
+            format!("{} inspections, {num_frames} frames", page.num_all)
         },
-        between: &[],
+        between: &["2 inspections, 1 frames"],
     }
     .fails_at_every_call();
 }
