@@ -787,6 +787,20 @@ fn serial_number_order_and_operator_stand_in_history_table_and_report() {
         (&lines[0]["serial"], &lines[0]["order"]),
         (&"TL-4711".into(), &"A 17".into())
     );
+    for (options, expected) in [
+        (&["--serial", "TL-4711"][..], &[1][..]),
+        (&["--serial", "tl-4711"], &[]),
+        (&["--order", " B 2 "], &[2]),
+        (&["--order", "B"], &[]),
+        (&["--order", "B 2", "--serial", "TL-4711"], &[]),
+    ] {
+        let list = ["history", "list", "--json"];
+        let lines = place.accepted(&[&list[..], options].concat()).lines();
+        let numbers: Vec<i64> = (lines.iter())
+            .filter_map(|line| line["number"].as_i64())
+            .collect();
+        assert_eq!(numbers, expected, "{options:?}");
+    }
     let shown = place.accepted(&["history", "show", "2"]).out;
     assert!(
         shown.contains("B 2") && !shown.contains("serial"),

@@ -472,6 +472,11 @@ impl InspectionDetail {
         text_of(&self.line, "place")
     }
 
+    /// Returns the number of [that place](Self::place) in the rack, from 1.
+    pub fn place_number(&self) -> Option<u32> {
+        self.recipe.as_ref()?.rack.number_of(&self.place()?)
+    }
+
     /// Returns how far off the pose may be; `None` if the line has no bounds or the pose is unconstrained.
     pub(super) fn pose_bounds(&self) -> Option<PoseDelta> {
         #[derive(serde::Deserialize)]

@@ -133,6 +133,11 @@ fn every_filter_lets_through_what_a_plain_look_at_the_rows_does() {
         entry.record.summary.source = ["kinect", "kinect:B"][random.random_range(0..2)].into();
         entry.record.summary.rack =
             [None, Some("A"), Some("Rack Tür")][random.random_range(0..3)].map(str::to_owned);
+        entry.record.summary.trace = Traceability {
+            order: ["", "A 17", "a 17"][random.random_range(0..3)].into(),
+            serial: ["", "TL-1", "TL-17"][random.random_range(0..3)].into(),
+            operator: String::new(),
+        };
         entry.record.summary.remark = ["", "Beule Ö", "dent 50%"][random.random_range(0..3)].into();
         entry.scene = None;
         let number = history.add(&entry, &Retention::default()).expect("written");
@@ -158,6 +163,8 @@ fn every_filter_lets_through_what_a_plain_look_at_the_rows_does() {
             is_simulated: random.random_bool(0.3).then(|| random.random()),
             source: random.random_bool(0.2).then(|| "kinect".to_owned()),
             rack: random.random_bool(0.2).then(|| "A".to_owned()),
+            order: random.random_bool(0.2).then(|| "A 17".to_owned()),
+            serial: random.random_bool(0.2).then(|| "TL-1".to_owned()),
             with_below: random.random(),
             text: [
                 "",
@@ -271,6 +278,13 @@ fn twenty_thousand_rows_are_asked_right_and_from_the_index_alone() {
             NUM / 80,
         ),
     ];
+    let of_order = Filter {
+        order: Some("A 17".into()),
+        ..Filter::default()
+    };
+    let plan = plan_of(&history, listed_query(&of_order));
+    assert!(plan.contains("INDEX listed"), "{plan}");
+    assert!(!plan.contains("TEMP B-TREE"), "{plan}");
     for (filter, num) in filters {
         let page = history.page(&filter, 0, 50).expect("asked");
         assert_eq!(
@@ -393,6 +407,7 @@ fn the_table_has_a_line_for_each_row_and_as_many_fields_as_its_head() {
     assert!(lines.iter().all(|line| num_fields(line) == wanted));
     let kinds = csv_column(&table, "reason_kind");
     assert_eq!(kinds, ["low_score"; 4]);
+    assert_eq!(csv_column(&table, "place_number"), [""; 4]);
     // If reading fails midway, the existing table is kept.
     let failed = write_table(&path, |row| {
         history.each(&Filter::default(), row)?;
