@@ -11,7 +11,8 @@ use super::{
 use inspection::library::LibraryLoad;
 use records::{
     history::{
-        HistoryError, HistoryEvent, HungId, NewEntry, ServoRecord, Traceability, users_folder,
+        HistoryError, HistoryEvent, HungId, NewEntry, ServoRecord, TraceChange, Traceability,
+        users_folder,
     },
     report::segmentation_picture,
 };
@@ -145,6 +146,11 @@ impl HistoryRecorder {
     pub(super) fn add(&mut self, entry: NewEntry, console: &Console) {
         self.recorder.add(entry);
         self.tell(console);
+    }
+
+    /// Sets the traceability of a part that was recorded before it was known.
+    pub(super) fn trace(&self, hung: HungId, trace: Traceability) {
+        self.recorder.trace(hung, TraceChange::Set(trace));
     }
 
     /// Adds a run of servoing.

@@ -166,9 +166,14 @@ impl Inspector for ServeSession<'_> {
     }
 }
 
-/// The entry of a part for the history, if there is one. Each part on a line is another one.
-fn entry_of(recording: Option<&HistoryRecorder>, part: &Inspected<'_>) -> Option<NewEntry> {
-    recording.map(|recording| recording.entry(part, HungId::new()))
+/// The entry of a part for the history, if there is one.
+fn entry_of(
+    recording: Option<&HistoryRecorder>,
+    part: &Inspected<'_>,
+    hung: HungId,
+    trace: &Traceability,
+) -> Option<NewEntry> {
+    recording.map(|recording| recording.traced_entry(part, hung, trace))
 }
 
 impl ServeSession<'_> {
@@ -280,10 +285,17 @@ impl ServeSession<'_> {
         let (scenes, console) = (&mut self.scenes, &*self.console);
         let scene_of = |captured| Arc::new(scene_of(captured, scenes, console));
         let recording = self.recording.as_ref();
-        let entry = |part: &Inspected<'_>| entry_of(recording, part);
-        let (answered, recorded) =
-            answering.answer_on_line(asked, line, &self.traced, next, scene_of, entry);
+        let traced = &self.traced;
+        let entry = |part: &Inspected<'_>, hung| entry_of(recording, part, hung, traced);
+        let (answered, recorded, named) =
+            answering.answer_on_line(asked, line, traced, next, scene_of, entry);
         self.record(recorded);
+        // Most were recorded when they began to count, before the trigger.
+        if let Some(recording) = &self.recording {
+            for hung in named {
+                recording.trace(hung, self.traced.clone());
+            }
+        }
         match answered {
             Ok(answered) => self.last.insert(answered).found.clone(),
             Err(why) => self.without_frame(&why),
@@ -309,7 +321,8 @@ impl ServeSession<'_> {
         let (scenes, console) = (&mut self.scenes, &*self.console);
         let scene_of = |captured| Arc::new(scene_of(captured, scenes, console));
         let recording = self.recording.as_ref();
-        let entry = |part: &Inspected<'_>| entry_of(recording, part);
+        let trace = &self.trace;
+        let entry = |part: &Inspected<'_>, hung| entry_of(recording, part, hung, trace);
         let followed = guarded(|| {
             answering
                 .follow(captured, subject, line, scene_of, entry)

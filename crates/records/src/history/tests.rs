@@ -587,6 +587,15 @@ fn a_serial_number_that_comes_later_is_added_to_the_inspections_of_its_part_that
     let serial = |number| history.known(number).expect("there").summary.trace.serial;
     assert_eq!([1, 2, 3].map(serial), ["", "", "TL-1"]);
     assert!(numbers(&history, &found).is_empty());
+    // The order is named later, and another one than at the start; what is not named stays.
+    let named = TraceChange::Set(Traceability {
+        order: "4712".into(),
+        ..Traceability::default()
+    });
+    let hung = &entries[2].record.summary.hung;
+    history.trace_part(hung, &named).expect("written");
+    let last = history.known(3).expect("there").summary.trace;
+    assert_eq!((&*last.serial, &*last.order), ("TL-1", "4712"));
 }
 
 #[cfg(unix)]
