@@ -309,8 +309,7 @@ fn views(args: &Views, console: &mut Console) -> anyhow::Result<CellViews> {
                 None => return Ok(ControlFlow::Continue(())),
                 Some(FeedItem::Captured(captured)) => captured,
                 Some(FeedItem::Skipped(skipped)) => {
-                    let what = format_args!("{}: {}", skipped.name, skipped.error);
-                    console.warn(&what, &*skipped.error);
+                    console.warn(&skipped, &*skipped.error);
                     return Ok(ControlFlow::Continue(()));
                 }
             };

@@ -215,7 +215,8 @@ fn inspect(
     if let Some(publisher) = one.publisher {
         publisher.end(console);
     }
-    if let Some(folder) = &args.report {
+    let is_reported = one.report.is_some_and(|folder| folder.has_reports());
+    if let Some(folder) = args.report.as_ref().filter(|_| is_reported) {
         console.note(&format_args!("The reports are in {}", folder.display()));
     }
     outcome

@@ -705,6 +705,16 @@ fn a_report_holds_the_line_and_a_picture_of_every_stage() {
         "fender.pcd",
     ];
     assert_eq!(place.run(&nowhere).code, 2);
+    // Where nothing could be written, no reports are said to be.
+    fs::create_dir_all(place.path("taken/fender.report.json")).expect("made");
+    let inspect = ["inspect", "fender.pcd", "--library", "parts"];
+    let ran = place.run(&[&inspect[..], &["--report", "taken"]].concat());
+    assert_eq!(ran.code, 2);
+    assert!(
+        ran.err.contains("fender.report.json") && !ran.err.contains("The reports are in"),
+        "{}",
+        ran.err
+    );
 }
 
 #[test]

@@ -151,6 +151,19 @@ fn the_row_of_the_serial_number_comes_before_that_of_the_order() {
         let error = expected(&orders, order, serial).expect_err(what);
         assert!(error.contains(what), "{error}");
     }
+    for (error, ways) in [
+        (OrderError::NotGiven, ["--order", "TRIGGER ORDER="]),
+        (
+            OrderError::SerialNotGiven {
+                order: "4712".into(),
+            },
+            ["--serial", "TRIGGER SERIAL="],
+        ),
+    ] {
+        let advice = error.advice();
+        let says = |way: &str| advice.contains(way);
+        assert!(ways.into_iter().all(says) && says("window"), "{advice}");
+    }
 }
 
 #[test]
