@@ -21,9 +21,9 @@ pub(super) struct ExpectChoice {
     /// and what is missing is said
     #[arg(long, value_name = "[PLACE=]PART,...", value_delimiter = ',', value_parser = NonEmptyStringValueParser::new(), conflicts_with = "orders")]
     expect: Vec<String>,
-    /// Expect the parts of --order, or of --serial if the table has a row for it. The table is a CSV file with the columns
-    /// order, serial (may be empty) and parts, such as fender|grille or left hook=fender|right hook=grille. With serve, a
-    /// trigger may name its order, and the table is read again for each
+    /// Expect the parts of --order, or of --serial if the table has a row for it; with serve, also those of a trigger that
+    /// names its order or serial number (TRIGGER ORDER=4711 SERIAL=TL-0042). The table is a CSV file with the columns order,
+    /// serial (may be empty) and parts, such as fender|grille or left hook=fender|right hook=grille
     #[arg(long, value_name = "FILE")]
     orders: Option<PathBuf>,
 }

@@ -53,8 +53,8 @@ Examples:
   partsight report --conventions
   partsight report --schema > pose-report.schema.json
 
-Writes FILE.pose.json and FILE.pose.pdf for each file; of several parts of a frame FILE_1, FILE_2 and so on. csv appends a row for
-each part to poses.CONVENTION.csv. A part that is not
+Writes FILE.pose.json and FILE.pose.pdf for each file; of several parts of a frame FILE_1, FILE_2 and so on. csv appends a row for \
+each part to poses.CONVENTION.csv. A part that is not \
 accepted, or about which there are doubts, is reported too, without numbers that a robot could move by.
 Files: PCD, PLY, XYZ or CSV text, or a 16-bit depth PNG with its intrinsics in a JSON beside it; metres.
 Exit codes: 0 every input accepted, 1 something was not accepted, 2 something could not be read or written.")]
