@@ -4,7 +4,6 @@ mod session;
 
 use std::{
     net::{Ipv4Addr, SocketAddr, SocketAddrV4},
-    path::Path,
     sync::{
         Arc,
         mpsc::{self, Receiver},
@@ -266,7 +265,7 @@ pub(super) fn run(args: &ServeArgs, console: &mut Console) -> anyhow::Result<Out
             kind: args.numbers.kind(),
         },
         servoing,
-        orders: orders.map(Path::to_owned),
+        orders,
         traced: trace.clone(),
         trace,
         scenes: CameraScenes::new(empty_cell),

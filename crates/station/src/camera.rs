@@ -211,12 +211,6 @@ pub enum NoFrame {
     Unanswered(#[from] Unanswered),
 }
 
-impl From<OrdersError> for NoFrame {
-    fn from(error: OrdersError) -> Self {
-        Self::Orders(Arc::new(error))
-    }
-}
-
 impl NoFrame {
     /// The reason word in an answer.
     pub fn reason(&self) -> &'static str {

@@ -2,7 +2,6 @@
 
 use std::{
     ops::ControlFlow,
-    path::PathBuf,
     sync::{Arc, mpsc::Receiver},
     time::Duration,
 };
@@ -25,7 +24,7 @@ use inspection::{
 };
 use records::{
     history::{HungId, NewEntry, Traceability},
-    orders::Orders,
+    orders::OrdersFile,
     report::{InspectionLine, SCHEMA},
 };
 use serde_json::json;
@@ -51,7 +50,7 @@ pub(super) struct ServeSession<'a> {
     /// Robots that servo, or why they are not answered.
     pub(super) servoing: Result<SingleMoves, SetupError>,
     /// The table of orders that triggers may name.
-    pub(super) orders: Option<PathBuf>,
+    pub(super) orders: Option<OrdersFile>,
     /// What triggers are traced by that name no order, and what the last one is.
     pub(super) trace: Traceability,
     pub(super) traced: Traceability,
@@ -179,18 +178,18 @@ fn entry_of(
 impl ServeSession<'_> {
     /// The recipe with what is expected after a trigger, unless it names parts by their numbers. The table of orders may have
     /// changed since the last one.
-    fn recipe_for(&self, asked: &Asked) -> Result<NamedRecipe, NoFrame> {
+    fn recipe_for(&mut self, asked: &Asked) -> Result<NamedRecipe, NoFrame> {
         let recipe = &self.recipe;
         if asked.expected.iter().any(|one| one.is_given()) {
             return Ok(recipe.clone());
         }
-        let Some(path) = &self.orders else {
+        let Some(orders) = &mut self.orders else {
             let is_plain = !asked.order.is_given();
             return is_plain.then(|| recipe.clone()).ok_or(NoFrame::NoOrders);
         };
         let is_enrolled = |name: &str| self.library.has_part(name);
-        let orders = Orders::read(path)?;
-        let expected = orders.expected(&self.traced, Some(&recipe.rack), is_enrolled)?;
+        let table = orders.table().map_err(NoFrame::Orders)?;
+        let expected = table.expected(&self.traced, Some(&recipe.rack), is_enrolled)?;
         Ok(recipe.expecting(expected))
     }
 
