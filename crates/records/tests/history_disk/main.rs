@@ -1,8 +1,8 @@
-//! A history on a disk that fails, wherever `SQLite` itself writes.
+//! A history on a disk that fails, wherever `SQLite` itself writes, and wherever a frame is written.
 //!
 //! `SQLite` writes by calls of its own. A stub library (`disk.c`) intercepts them and lets the n-th one fail, for
 //! every n: with a full disk, an input/output error once or from then on, or the end of the program. Afterwards the
-//! history read is the old one or the new one, and is never set aside as damaged. Without a C compiler the tests
+//! history read is the old one or the new one, and is never set aside as damaged; a frame that fails costs no row. Without a C compiler the tests
 //! report that they are skipped; with `PARTSIGHT_REQUIRE_COMPILER=1` they fail.
 
 #![allow(clippy::disallowed_methods, reason = "tests change files")]
