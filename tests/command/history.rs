@@ -579,25 +579,35 @@ fn on_a_disk_that_fills_first_frames_and_then_rows_are_no_longer_written_and_eac
     let frame_bytes = record(1).summary.frame_bytes.expect("kept");
     assert!(frame_bytes > 60_000, "{frame_bytes}");
 
-    // There is room for rows, but for no frame.
     let filling = fs::File::create(disk.path().join("filling")).expect("made");
-    let size = fill(&filling);
-    filling.set_len(size - frame_bytes + 8192).expect("cut");
+    let leave = |bytes: u64| {
+        (&filling).seek(io::SeekFrom::End(0)).expect("at its end");
+        let size = fill(&filling);
+        filling.set_len(size - bytes).expect("cut");
+    };
+    // There is room for rows, but for no frame.
+    leave(frame_bytes - 8192);
     let news = add(1);
     let is_told = |news: &&HistoryEvent| matches!(news, HistoryEvent::FramesNotKept { what, advice } if is_full(what, advice));
     assert_eq!(news.iter().filter(is_told).count(), 1, "{news:?}");
     assert_eq!((num_failures(&news), keeper.num_waiting()), (0, 0));
-    let detail = record(3).detail;
-    assert_eq!(
-        (detail.frame, detail.frame_loss),
-        (None, Some(FrameLoss::DiskFull))
-    );
+    // There is room for a frame, but not for its row as well.
+    leave(frame_bytes + 8192);
+    let news = add(1);
+    assert_eq!(news.iter().filter(is_told).count(), 0, "{news:?}");
+    assert_eq!((num_failures(&news), keeper.num_waiting()), (0, 0));
+    for number in [3, 4] {
+        let detail = record(number).detail;
+        assert_eq!(
+            (detail.frame, detail.frame_loss),
+            (None, Some(FrameLoss::DiskFull))
+        );
+    }
 
     // There is room for nothing.
-    (&filling).seek(io::SeekFrom::End(0)).expect("at its end");
-    fill(&filling);
+    leave(0);
     let num: u64 = 25;
-    let news = add(num as usize - 3);
+    let news = add(num as usize - 4);
     assert_eq!(num_failures(&news), 1, "{news:?}");
     assert_eq!(news.iter().filter(is_told).count(), 0, "{news:?}");
     let full = |news: &HistoryEvent| matches!(news, HistoryEvent::Failed { what, advice } if is_full(what, advice));
