@@ -117,7 +117,13 @@ pub(super) struct FilterArgs {
     /// In the rack of this name
     #[arg(long, value_name = "NAME")]
     rack: Option<String>,
-    /// With these words in the name of part, scene, source or rack, in the remark or in the true label
+    /// Of this production order
+    #[arg(long, value_name = "TEXT")]
+    order: Option<String>,
+    /// With this serial number
+    #[arg(long, value_name = "TEXT")]
+    serial: Option<String>,
+    /// With these words in the name of part, scene, source or rack, in the remark, the true label or the traceability
     #[arg(long, value_name = "TEXT")]
     text: Option<String>,
     /// Only simulated inspections (true), or only those of a camera (false)
@@ -146,6 +152,8 @@ impl FilterArgs {
             verdict: self.verdict,
             is_simulated: self.simulated,
             rack: self.rack.clone(),
+            order: self.order.as_deref().map(Traceability::cleaned),
+            serial: self.serial.as_deref().map(Traceability::cleaned),
             with_below: self.reinspections,
             text: self.text.clone().unwrap_or_default(),
             ..Filter::default()

@@ -62,9 +62,9 @@ Examples:
   partsight rack show rack_a.toml
   partsight inspect next.pcd --rack rack_a.toml
 
-The file is text (docs/guide/racks.md). Nothing outside its boxes of volume is looked at; a part that hangs at none of its
-places, at the place of another or in an orientation that is not allowed is not accepted. Of two poses of a symmetric part, the
-allowed one is found. Coordinates are in the camera's frame or, with --base, in the robot's base frame, which takes a
+The file is text (docs/guide/racks.md). Nothing outside its boxes of volume is looked at; a part that hangs at none of its \
+places, at the place of another or in an orientation that is not allowed is not accepted. Of two poses of a symmetric part, the \
+allowed one is found. Coordinates are in the camera's frame or, with --base, in the robot's base frame, which takes a \
 calibration.")]
 pub(super) struct RackArgs {
     #[command(subcommand)]

@@ -19,7 +19,8 @@ use thiserror::Error;
 
 use super::motion::{MotionWatch, since_epoch, time_of};
 use capture::{
-    BackpressurePolicy, CaptureError, Captured, Feed, FeedItem, FeedState, FeedStatus, SourceSpec,
+    BackpressurePolicy, CaptureError, Captured, Feed, FeedItem, FeedState, FeedStatus,
+    SkippedCapture, SourceSpec,
 };
 use geometry::{
     clock,
@@ -175,14 +176,9 @@ pub enum NoFrame {
         rule: NewFrame,
     },
     /// A frame arrived that cannot be read.
-    #[error("{name}: {error}")]
-    #[advice(error.advice())]
-    Unreadable {
-        /// Name of the frame, to show to the operator.
-        name: String,
-        /// The underlying error.
-        error: Arc<CaptureError>,
-    },
+    #[error("{0}")]
+    #[advice(_0.error.advice())]
+    Unreadable(SkippedCapture),
     /// A file was seen before it was written, by the clock of its disk.
     #[error("{name}: the clock of the disk is at least {:.1} s ahead of this computer's", ahead.as_secs_f64())]
     #[advice = "Set both clocks from the same time server: otherwise the age of a file is not known"]
@@ -234,12 +230,6 @@ pub enum NoFrame {
     Unanswered(#[from] Unanswered),
 }
 
-impl From<OrdersError> for NoFrame {
-    fn from(error: OrdersError) -> Self {
-        Self::Orders(Arc::new(error))
-    }
-}
-
 impl NoFrame {
     /// The reason word in an answer.
     pub fn reason(&self) -> &'static str {
@@ -248,7 +238,7 @@ impl NoFrame {
             Self::Failed { .. } => "camera_failed",
             Self::Ended => "source_ended",
             Self::Late { .. } => "no_frame",
-            Self::Unreadable { .. } => "unreadable",
+            Self::Unreadable(_) => "unreadable",
             Self::ClockAhead { .. } => "clock_ahead",
             Self::NoLine => "no_line",
             Self::UnknownNumber { .. } => "unknown_number",
@@ -500,10 +490,7 @@ impl Opened {
                     Err(why) => unreadable = Some(why),
                 },
                 Some(FeedItem::Skipped(skipped)) => {
-                    unreadable = Some(NoFrame::Unreadable {
-                        name: skipped.name,
-                        error: skipped.error,
-                    });
+                    unreadable = Some(NoFrame::Unreadable(skipped));
                 }
                 None => match status.state {
                     FeedState::Lost { error } => return Err(NoFrame::Lost { error }),
@@ -537,9 +524,9 @@ mod tests {
 
     use super::*;
     use capture::{
-        CellScene, DepthSource, NextCapture, SimulatedCell, SimulatedSpec, SkippedCapture,
-        fixtures::captured,
+        CellScene, DepthSource, NextCapture, SimulatedCell, SimulatedSpec, fixtures::captured,
     };
+    use files::FileError;
     use geometry::rigid::RigidTransform;
     use inspection::{
         fixtures::shipped_library,
@@ -774,6 +761,14 @@ mod tests {
         let why = why.expect_err("unreadable");
         assert_eq!(why.reason(), "unreadable");
         assert!(why.to_string().contains("broken.pcd"), "{why}");
+        assert!(why.to_string().starts_with("broken.pcd: "), "{why}");
+        let of_file = NoFrame::Unreadable(SkippedCapture {
+            name: "broken.pcd".into(),
+            error: Arc::new(CaptureError::File(FileError::Empty {
+                path: "scans/broken.pcd".into(),
+            })),
+        });
+        assert_eq!(of_file.to_string(), "scans/broken.pcd: the file is empty");
         let why = camera.frame_after(&Asked::now(), PATIENCE, || true);
         assert_eq!(why.expect_err("ending").reason(), "stopping");
     }

@@ -15,8 +15,8 @@ use inspection::{
     pipeline::{ExpectedPart, RefusalKind, is_like},
 };
 use records::history::{
-    Differences, FrameRecord, History, InspectionDetail, InspectionSummary, Record, Summary,
-    Traceability,
+    Differences, FrameLoss, FrameRecord, History, InspectionDetail, InspectionSummary, Record,
+    Summary, Traceability,
 };
 use texts::Language;
 
@@ -110,6 +110,8 @@ struct RecordLine<'a> {
     #[serde(flatten)]
     used: UsedLine<'a>,
     frame: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    frame_loss: Option<FrameLoss>,
     /// Files of a scan's shots.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     shots: Vec<String>,
@@ -230,6 +232,7 @@ pub(crate) fn record_line(
         camera_from_part: record.matrix(),
         used: UsedLine::of(detail),
         frame: frame.and_then(|frame| from.path(frame)),
+        frame_loss: detail.frame_loss,
         shots: shot_paths(from, record),
         below: below.collect(),
         line: serde_json::from_str(&detail.line).ok(),
@@ -333,11 +336,13 @@ fn record_table(from: ReadFrom<'_>, record: &Record) -> Table {
         summary.label.as_ref().map_or("", Truth::name).to_owned(),
     );
     row("remark", summary.remark.clone());
-    let frame = detail.frame.as_ref().map(|frame| from.path(frame));
-    let frame = frame.map_or_else(
-        || "not kept".into(),
-        |path| path.unwrap_or_else(|| "kept at the cell".into()),
-    );
+    let frame = match (&detail.frame, detail.frame_loss) {
+        (Some(frame), _) => from
+            .path(frame)
+            .unwrap_or_else(|| "kept at the cell".into()),
+        (None, Some(why)) => format!("not kept: {why}"),
+        (None, None) => "not kept".into(),
+    };
     row("frame", frame);
     for shot in shot_paths(from, record) {
         row("shot", shot);

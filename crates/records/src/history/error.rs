@@ -7,7 +7,7 @@ use std::{
 
 use rusqlite::ErrorCode;
 
-use super::frames::FrameError;
+use super::frames::{FrameError, FrameLoss};
 use files::{FileError, advice_on, words_of};
 use geometry::error::Advice;
 
@@ -108,6 +108,13 @@ pub enum HistoryError {
     #[error(transparent)]
     #[advice(transparent)]
     Frame(#[from] FrameError),
+    /// A frame that the rule keeps cannot be written; its inspection is.
+    #[error("frames are no longer kept: {source}")]
+    #[advice(frames_not_kept(source))]
+    FramesNotKept {
+        /// The underlying error.
+        source: FrameError,
+    },
     /// The table cannot be written.
     #[error(transparent)]
     #[advice(transparent)]
@@ -178,4 +185,16 @@ impl HistoryError {
 /// Returns whether the system reported a full or failing disk.
 fn is_disk_error(source: &rusqlite::Error) -> bool {
     source.sqlite_error_code() == Some(ErrorCode::SystemIoFailure)
+}
+
+fn frames_not_kept(source: &FrameError) -> String {
+    match source.loss() {
+        FrameLoss::DiskFull => {
+            "Make room on the disk, or keep fewer frames (`partsight history keep`; in the window, Frames… in History): until then, inspections are written without them".into()
+        }
+        FrameLoss::NotWritable | FrameLoss::SlowDisk => format!(
+            "{}; until then, inspections are written without frames",
+            source.advice()
+        ),
+    }
 }

@@ -32,6 +32,7 @@ use geometry::{
     error::Advice,
 };
 use stages::scene::{EmptyCell, PictureEdge, SceneCloud, full_scene, reduced_scene};
+use texts::{Described, Message};
 
 /// Database record of a kept frame.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -70,6 +71,36 @@ pub struct FrameRecord {
     pub shots: Vec<ShotRecord>,
 }
 
+/// Why the frame of an inspection is not kept although the rule keeps it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum FrameLoss {
+    /// The disk was full.
+    DiskFull,
+    /// The frame, or the whole history for a while, could not be written.
+    NotWritable,
+    /// The disk was too slow.
+    SlowDisk,
+}
+
+impl Described for FrameLoss {
+    fn message(&self) -> Message {
+        Message::new(match self {
+            Self::DiskFull => "frame-loss-disk-full",
+            Self::NotWritable => "frame-loss-not-writable",
+            Self::SlowDisk => "frame-loss-slow-disk",
+        })
+    }
+}
+
+texts::display!(FrameLoss);
+
+/// What the database has in place of the record of a frame that was lost.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+pub(super) struct LostFrame {
+    pub(super) lost: FrameLoss,
+}
+
 /// Depth units of common cameras, metres.
 const UNITS: [f64; 5] = [0.001, 0.0002, 0.0001, 0.00025, 0.000_125];
 
@@ -104,10 +135,22 @@ pub enum FrameError {
 }
 
 impl FrameError {
-    fn io(path: &Path, source: io::Error) -> Self {
+    pub(super) fn io(path: &Path, source: io::Error) -> Self {
         Self::Unwritable {
             path: path.to_owned(),
             source,
+        }
+    }
+
+    /// Returns what the row says of a frame that could not be written.
+    pub(super) fn loss(&self) -> FrameLoss {
+        let (Self::File(FileError::Write { source, .. }) | Self::Unwritable { source, .. }) = self
+        else {
+            return FrameLoss::NotWritable;
+        };
+        match source.kind() {
+            io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => FrameLoss::DiskFull,
+            _ => FrameLoss::NotWritable,
         }
     }
 }

@@ -151,7 +151,7 @@ impl<E> LineTracker<E> {
         moment: Moment,
         found: &mut [Inspection],
         middle_of: impl Fn(&Inspection) -> Option<Point3<f64>>,
-        entry: impl Fn(usize, &Inspection, Option<OnLine>) -> E,
+        mut entry: impl FnMut(usize, &Inspection, Option<OnLine>) -> E,
     ) -> (Vec<Followed>, Vec<E>) {
         let speed = self.speed_at(&moment);
         let mut recorded = self.end_those_gone(&moment, speed);
@@ -171,7 +171,14 @@ impl<E> LineTracker<E> {
                 self.tracks.push(Track::default());
                 self.tracks.len() - 1
             });
-            followed[index] = self.add(track, sighting, inspection, index, &entry, &mut recorded);
+            followed[index] = self.add(
+                track,
+                sighting,
+                inspection,
+                index,
+                &mut entry,
+                &mut recorded,
+            );
         }
         self.last = Some(moment);
         (followed, recorded)
@@ -184,7 +191,7 @@ impl<E> LineTracker<E> {
         sighting: Sighting,
         inspection: &mut Inspection,
         index: usize,
-        entry: &impl Fn(usize, &Inspection, Option<OnLine>) -> E,
+        entry: &mut impl FnMut(usize, &Inspection, Option<OnLine>) -> E,
         recorded: &mut Vec<E>,
     ) -> Followed {
         let line_speed = self

@@ -24,7 +24,7 @@ use plant::bundle::{
 Examples:
   partsight library keys keys
 
-Writes library.key, the private key, which stays with the publisher and which only its owner can read, and library.pub,
+Writes library.key, the private key, which stays with the publisher and which only its owner can read, and library.pub, \
 the public key, which every cell gets. Existing keys are never replaced.")]
 pub(crate) struct KeysArgs {
     /// The folder for both; created if missing
@@ -62,9 +62,9 @@ Examples:
   partsight library take --from s3://parts/hall-3 --trust library.pub --library parts
   partsight library take --from s3://parts/hall-3 --trust library.pub --version 6
 
-Signature, digest and every part are checked before anything is changed. Parts that the version replaces are moved to the
-library's .trash. A spray path that was stored here stays with its part if the version has the same reference of the part
-and no path for it. Inspections do not need the store: they use the installed library. A running program keeps the library
+Signature, digest and every part are checked before anything is changed. Parts that the version replaces are moved to the \
+library's .trash. A spray path that was stored here stays with its part if the version has the same reference of the part \
+and no path for it. Inspections do not need the store: they use the installed library. A running program keeps the library \
 that it read at its start; only the window, and serve --take, notice the change by themselves.")]
 pub(crate) struct TakeArgs {
     /// The store, as for publish (partsight library publish --help)
@@ -88,7 +88,7 @@ Examples:
   partsight library versions /mnt/plant/library
   partsight library versions s3://parts/hall-3 --json
 
-KEY is the beginning of the public key's SHA-256, as library keys shows it: only library take checks it against the key
+KEY is the beginning of the public key's SHA-256, as library keys shows it: only library take checks it against the key \
 that you trust. HERE marks the version that the library was taken from.")]
 pub(crate) struct VersionsArgs {
     /// The store, as for publish (partsight library publish --help)

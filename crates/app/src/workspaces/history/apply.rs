@@ -229,6 +229,7 @@ impl HistoryState {
                 self.answered();
                 cx.notify(UserError { what, advice });
             }
+            HistoryEvent::FramesNotKept { what, advice } => cx.notify(UserError { what, advice }),
             HistoryEvent::Swept(PruneResult {
                 num_frames,
                 num_bytes,

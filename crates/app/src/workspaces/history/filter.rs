@@ -113,6 +113,8 @@ impl ListFilter {
             is_simulated: None,
             source: None,
             rack: None,
+            order: None,
+            serial: None,
             with_below: false,
             text: self.text.clone(),
             shown,
