@@ -15,6 +15,7 @@
 mod ahead;
 mod expected;
 mod hypothesis;
+mod identification;
 pub mod live;
 mod mirror;
 mod misplaced;
@@ -59,6 +60,7 @@ use self::{
 };
 pub use self::{
     expected::{Expected, ExpectedError, ExpectedPart, places_of},
+    identification::Identification,
     mirror::{MirrorTally, OnlyMirrored},
     named_recipe::{
         AS_IN_THE_PAPER, BUILT_IN, BUILT_IN_RECIPES, MAX_NOTES, NamedRecipe, RecipeBlock,
@@ -67,7 +69,7 @@ pub use self::{
     recipe_error::RecipeError,
     recipe_folder::{RecipeFolder, RecipeList, Replace, open_recipe},
     refusal::{Refusal, RefusalKind},
-    rejection::{Rejection, Unrecognisable, is_like},
+    rejection::{Rejection, Unrecognisable},
     verdict::{AcceptParams, Verdict},
     watch::{Cancelled, ProgressObserver, Stage, Timings},
 };
