@@ -18,7 +18,7 @@ use texts::Language;
 /// degrees).
 pub(super) fn place_of(inspection: &Inspection, library: &Library) -> Option<([f64; 3], [f64; 3])> {
     let pose = inspection.found_pose()?.camera_from_part();
-    let middle = pose * inspection.best_reference(library)?.middle()?;
+    let middle = pose * inspection.middle(library)?;
     // nalgebra's angles are those of Rz·Ry·Rx.
     let (rx, ry, rz) = pose.rotation.euler_angles();
     Some((

@@ -517,6 +517,11 @@ impl Inspection {
         library.references.get(best.reference)
     }
 
+    /// The middle of the reference ranked first, part space, metres; `library` is the one that was used for the inspection.
+    pub fn middle(&self, library: &Library) -> Option<Point3<f64>> {
+        self.best_reference(library)?.middle()
+    }
+
     fn best_score(&self) -> f64 {
         self.ranking.entries.first().map_or(0.0, |e| e.score)
     }

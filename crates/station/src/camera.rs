@@ -565,7 +565,7 @@ mod tests {
         fixtures::shipped_library,
         pipeline::{Recipe, Unwatched, run},
     };
-    use stages::{reference::Reference, scene::scene_from_image};
+    use stages::scene::scene_from_image;
 
     /// Long enough for a busy machine; normally what is waited for comes at once.
     const PATIENCE: Duration = Duration::from_mins(1);
@@ -890,8 +890,7 @@ mod tests {
             let truth = Arc::clone(frame.truth.as_ref().expect("known"));
             let mut inspection = inspect(frame).remove(0);
             let was_accepted = inspection.verdict.is_accepted();
-            let middle = inspection.best_reference(&library);
-            let middle = middle.and_then(Reference::middle);
+            let middle = inspection.middle(&library);
             let checked = camera.refuse_if_moving(
                 taken_at,
                 slice::from_mut(&mut inspection),

@@ -434,7 +434,7 @@ impl FinishedInspection {
         let seen_by_all = scan
             .as_ref()
             .map(|found| PointCloud::from_points(found.part().map(|(_, point)| point)));
-        let middle = best.and_then(Reference::middle);
+        let middle = inspection.middle(library);
         let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
         // No stand-off or path for a part that was not recognised.
         let sprayed = best.zip(pose).filter(|_| inspection.verdict.is_accepted());

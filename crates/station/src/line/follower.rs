@@ -86,7 +86,7 @@ impl Answering<'_> {
         let (followed, recorded) = line.tracker.see(
             moment,
             &mut inspections,
-            |part| part.best_reference(self.library)?.middle(),
+            |part| part.middle(self.library),
             |_, part, on_line| {
                 entry(&Inspected {
                     on_line,
