@@ -85,8 +85,8 @@ impl Distortion {
     /// if entries beyond these differ from 0.
     pub fn from_list(list: &[f64]) -> Option<Self> {
         let mut all = [0.0; 8];
-        for (place, coefficient) in list.iter().enumerate() {
-            match all.get_mut(place) {
+        for (index, coefficient) in list.iter().enumerate() {
+            match all.get_mut(index) {
                 Some(slot) => *slot = *coefficient,
                 None if *coefficient == 0.0 => {}
                 None => return None,

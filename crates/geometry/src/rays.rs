@@ -84,8 +84,8 @@ impl Rays {
 fn known(camera: &Intrinsics) -> Table {
     let lock = || lock(&KNOWN);
     let mut tables = lock();
-    if let Some(place) = tables.iter().position(|(of, _)| of == camera) {
-        tables[..=place].rotate_right(1);
+    if let Some(index) = tables.iter().position(|(of, _)| of == camera) {
+        tables[..=index].rotate_right(1);
         return Arc::clone(&tables[0].1);
     }
     // Compute without blocking other cameras; two threads may compute the same table.

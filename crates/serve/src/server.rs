@@ -605,10 +605,10 @@ pub(super) fn answer_to(
     };
     let at = shared.situation();
     match inspected {
-        Ok((inspected, place)) => {
+        Ok((inspected, index)) => {
             let index = match request {
-                Request::Part { index, .. } => index.saturating_sub(1) as usize,
-                _ => place,
+                Request::Part { place, .. } => place.saturating_sub(1) as usize,
+                _ => index,
             };
             Answer::of(&request, &inspected, index, &at)
         }

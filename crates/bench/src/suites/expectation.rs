@@ -81,8 +81,8 @@ pub fn add_expected_racks(
     figures: &mut [ExpectationFigures; 4],
     mut after_each: impl FnMut(),
 ) {
-    for (place, frame) in frames.iter().enumerate() {
-        figures[place % Expectation::ALL.len()].add(suite, frame, library, recipe);
+    for (index, frame) in frames.iter().enumerate() {
+        figures[index % Expectation::ALL.len()].add(suite, frame, library, recipe);
         after_each();
     }
 }
@@ -104,8 +104,8 @@ impl ExpectationFigures {
         match self.expectation {
             Expectation::Right => {}
             Expectation::Wrong => {
-                let place = random.random_range(0..names.len());
-                replaced = Some(std::mem::replace(&mut names[place], absent.clone()));
+                let index = random.random_range(0..names.len());
+                replaced = Some(std::mem::replace(&mut names[index], absent.clone()));
             }
             Expectation::Missing => names.push(absent.clone()),
             Expectation::One => {

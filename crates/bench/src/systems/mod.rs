@@ -229,14 +229,14 @@ mod tests {
         assert_eq!(cases.len(), 8);
         let preparations = systems.preparations();
         assert_eq!(preparations.len(), System::ALL.len());
-        for (place, system) in System::ALL.iter().enumerate() {
-            let num_right = cases.iter().filter(|case| case.is_right(place)).count();
+        for (index, system) in System::ALL.iter().enumerate() {
+            let num_right = cases.iter().filter(|case| case.is_right(index)).count();
             // The paper's matcher is right on about two of three frames.
             let least = if *system == System::Paper { 3 } else { 7 };
             assert!(num_right >= least, "{system:?}: {num_right} of 8");
-            let is_descriptor = preparations[place].num_rows.is_some();
+            let is_descriptor = preparations[index].num_rows.is_some();
             for case in &cases {
-                assert_eq!(case.answers[place].size.is_some(), is_descriptor);
+                assert_eq!(case.answers[index].size.is_some(), is_descriptor);
             }
         }
     }

@@ -99,9 +99,9 @@ impl Database {
     pub(super) fn read<'a, T: tokio_postgres::types::FromSql<'a>>(
         &self,
         row: &'a tokio_postgres::Row,
-        place: usize,
+        index: usize,
     ) -> Result<T, DatabaseError> {
-        let value = row.try_get(place);
+        let value = row.try_get(index);
         value.map_err(|error| DatabaseError::Failed {
             database: self.link.address.clone(),
             cause: format!("the tables of the history are not as they were made: {error}"),

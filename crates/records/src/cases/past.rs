@@ -133,10 +133,10 @@ impl<'a> PastCases<'a> {
                 && frame.is_some_and(|of| (of.bytes, of.crc32) == (scene.bytes, scene.crc32))
         };
         let before = || self.before.iter();
-        let place = before()
+        let index = before()
             .position(is_export)
             .or_else(|| before().position(is_same_scene))?;
-        Some(self.before.remove(place))
+        Some(self.before.remove(index))
     }
 
     /// Gives a case the true label of its inspection. Without one the truth of the case stays: a person may have entered it

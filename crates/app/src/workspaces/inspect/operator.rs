@@ -224,7 +224,7 @@ fn next_ui(ui: &mut Ui, banner: &Banner, room: f32) {
     };
     let is_long = banner.next.chars().count() > LONG;
     let smallest = types.len() - 1;
-    let fitting = (usize::from(is_long)..smallest).find(|place| height(&types[*place]) <= room);
+    let fitting = (usize::from(is_long)..smallest).find(|index| height(&types[*index]) <= room);
     let [next, caution] = &types[fitting.unwrap_or(smallest)];
     // A caution is worth more than the part before the last.
     let is_short = height(&types[smallest]) > room && !banner.caution.is_empty();

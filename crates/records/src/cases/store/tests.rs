@@ -160,8 +160,8 @@ fn writing_that_stops_half_way_leaves_no_case_and_is_cleared_up() {
     cases.keep(&crumb(), about("whole")).expect("kept");
     // Wherever the writer stops before the rename, all files are in the hidden folder.
     let whole = folder.path().join("whole");
-    for (place, files) in [&[][..], &[CRUMB], &[CRUMB, META]].into_iter().enumerate() {
-        let half = folder.path().join(format!("{NEW_PREFIX}{place}"));
+    for (index, files) in [&[][..], &[CRUMB], &[CRUMB, META]].into_iter().enumerate() {
+        let half = folder.path().join(format!("{NEW_PREFIX}{index}"));
         fs::create_dir(&half).expect("made");
         for file in files {
             fs::copy(whole.join(file), half.join(file)).expect("copied");
