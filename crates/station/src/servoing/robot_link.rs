@@ -31,9 +31,9 @@ pub enum RobotAddress {
 /// The port at which Universal Robots' controllers listen for RTDE.
 const RTDE_PORT: u16 = 30004;
 /// How many ports lower they listen for programs.
-const PROGRAM_PORT_BELOW: u16 = 2;
+const PROGRAM_PORT_OFFSET: u16 = 2;
 /// Greatest size of a UDP packet.
-const MAX_PACKET: usize = 65_536;
+const MAX_PACKET_BYTES: usize = 65_536;
 /// How long a controller may take to accept a connection or bytes.
 const CONNECT_TIMEOUT: Duration = Duration::from_secs(5);
 
@@ -205,7 +205,7 @@ impl RobotLink {
                     stream.map_err(|source| LinkError::Connect { at, source })
                 };
                 let rtde = connect(at)?;
-                let port = at.port().saturating_sub(PROGRAM_PORT_BELOW);
+                let port = at.port().saturating_sub(PROGRAM_PORT_OFFSET);
                 let program_at = SocketAddr::new(at.ip(), port);
                 let sent = connect(program_at)?.write_all(Rtde::PROGRAM.as_bytes());
                 sent.map_err(|source| LinkError::Lost {
@@ -218,7 +218,7 @@ impl RobotLink {
         Ok(Self {
             at,
             socket,
-            buffer: vec![0; MAX_PACKET],
+            buffer: vec![0; MAX_PACKET_BYTES],
         })
     }
 
