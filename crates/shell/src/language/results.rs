@@ -1,6 +1,4 @@
 //! Texts about results in the language of the window.
-//!
-//! Each kind of result is matched exhaustively, so that a new one does not compile without its text.
 
 use crate::inspection::source::CELL_SOURCE;
 use capture::SourceSpec;
