@@ -399,7 +399,7 @@ fn inspect_part(
     let Some(segmentation) = clock.time(Stage::Segment, segment)? else {
         return Ok(None);
     };
-    let mut inspection = Inspection::of(segmentation, Unrecognisable::EmptyLibrary);
+    let mut inspection = Inspection::unrecognised(segmentation, Unrecognisable::EmptyLibrary);
     let segmentation = &inspection.segmentation;
     let part = segmentation.part.as_ref();
     let first = part.map(|part| ahead.inspect(segmentation, part, inputs));
@@ -416,7 +416,7 @@ fn inspect_part(
 
 impl Inspection {
     /// An inspection without the results of the stages after the segmentation.
-    fn of(segmentation: Segmentation, why: Unrecognisable) -> Self {
+    fn unrecognised(segmentation: Segmentation, why: Unrecognisable) -> Self {
         Self {
             segmentation,
             plane: None,
@@ -446,7 +446,7 @@ impl Inspection {
                 needed: 0,
             }),
         };
-        Self::of(segmentation, Unrecognisable::Fault(fault))
+        Self::unrecognised(segmentation, Unrecognisable::Fault(fault))
     }
 
     /// True if some of the part is outside the picture: of an accepted part, if some of its reference lies beyond the field of

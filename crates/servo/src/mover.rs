@@ -118,7 +118,8 @@ mod tests {
             let by = from_euler_zyx([0.4, 0.4, 0.4, 0.3, 0.3, 0.3].map(&mut draw));
             let goal = mover.robot_from_flange * control * by;
             for _ in 0..random.random_range(1..120) {
-                let error = Twist::of(&((mover.robot_from_flange * control).inverse() * goal));
+                let error =
+                    Twist::from_transform(&((mover.robot_from_flange * control).inverse() * goal));
                 let wanted = mover.towards(&error, &control, 2.0, limits);
                 mover.advance(&wanted, limits, PERIOD_S);
                 poses.push(mover.robot_from_flange);
@@ -182,7 +183,7 @@ mod tests {
         let mut last = f64::INFINITY;
         for _ in 0..2000 {
             let now = mover.robot_from_flange * control;
-            let error = Twist::of(&(now.inverse() * goal));
+            let error = Twist::from_transform(&(now.inverse() * goal));
             let size = error.size();
             assert!(size.shift.0 <= last + 1e-9);
             last = size.shift.0;

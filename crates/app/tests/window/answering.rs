@@ -423,12 +423,12 @@ fn parts_are_numbered_once_robots_are_answered_and_keep_their_numbers() {
     let fender = PartName::new("fender").expect("a name");
     wait_until(&mut harness, |_| {
         let numbers = stored.numbers();
-        numbers.is_ok_and(|numbers| numbers.of(&fender) == Some(3))
+        numbers.is_ok_and(|numbers| numbers.number_of(&fender) == Some(3))
     });
     // The window shows them, and does not take its own change for that of another program.
     wait_until(&mut harness, |state| {
         let library = state.session.library.as_ref();
-        library.is_some_and(|library| library.numbers.of(&fender) == Some(3))
+        library.is_some_and(|library| library.numbers.number_of(&fender) == Some(3))
     });
     assert!(!says(&harness, "another program has changed it"));
     fs::remove_dir_all(parts.join("back_door")).expect("removed");

@@ -166,7 +166,7 @@ mod tests {
         let suite = Suite::RackApart;
         let frames = suite.frames(4, TUNING_SEED);
         let mut figures = ExpectationFigures::none();
-        let (library, recipe) = (libraries.of(suite), Recipe::default());
+        let (library, recipe) = (libraries.for_suite(suite), Recipe::default());
         let mut num = 0;
         add_expected_racks(suite, &frames, library, &recipe, &mut figures, || num += 1);
         assert_eq!(num, 4);

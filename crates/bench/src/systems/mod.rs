@@ -218,10 +218,10 @@ mod tests {
     fn every_system_tells_the_parts_apart_when_they_face_the_camera() {
         let libraries = SuiteLibraries::enrol(&EnrolParams::default()).expect("eight parts");
         let (suite, recipe) = (Suite::Standard, Recipe::default());
-        let systems = Systems::prepare(libraries.of(suite)).expect("can be described");
+        let systems = Systems::prepare(libraries.for_suite(suite)).expect("can be described");
         let frames = suite.frames(1, TUNING_SEED);
         let mut cases = Vec::new();
-        let library = libraries.of(suite);
+        let library = libraries.for_suite(suite);
         run_suite(suite, &frames, library, &recipe, |frame| {
             let (case, _) = &frame.cases[0];
             cases.extend(systems.recognise(suite, case, &frame.scene, &recipe));

@@ -47,7 +47,7 @@ impl Link {
         work: impl Future<Output = Result<T, tokio_postgres::Error>>,
     ) -> Result<T, DatabaseError> {
         match self.runtime.block_on(async { timeout(limit, work).await }) {
-            Ok(done) => done.map_err(|error| DatabaseError::of(&error, &self.address)),
+            Ok(done) => done.map_err(|error| DatabaseError::from_postgres(&error, &self.address)),
             Err(_elapsed) => Err(DatabaseError::Unreachable {
                 database: self.address.clone(),
                 cause: "it does not answer".into(),

@@ -20,7 +20,7 @@ pub enum TruthFrom {
 }
 
 impl TruthFrom {
-    fn of(self, record: &Record) -> Option<Truth> {
+    fn truth_of(self, record: &Record) -> Option<Truth> {
         let summary = &record.summary;
         let accepted = summary.part.as_ref();
         let accepted = accepted
@@ -86,7 +86,7 @@ impl<'a> PastCases<'a> {
 
     /// Writes an inspection as a case if it has a true label and one kept frame.
     pub fn take(&mut self, record: &Record) -> Result<(), CaseError> {
-        let Some(truth) = self.truth.of(record) else {
+        let Some(truth) = self.truth.truth_of(record) else {
             self.num_without_truth += 1;
             return Ok(());
         };

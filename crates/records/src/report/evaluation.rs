@@ -119,7 +119,7 @@ fn draw_matrix(canvas: &mut Canvas, confusion: &Confusion, [left, top]: [f64; 2]
         let (Some(row), Some(column)) = (row, column) else {
             continue;
         };
-        let (colour, sign) = look(CaseOutcome::of(truth, answered));
+        let (colour, sign) = look(CaseOutcome::new(truth, answered));
         let (from, to) = inner(corner(row, column));
         canvas.block(from, to, colour);
         let text = format!("{}{sign}", results.len());

@@ -120,7 +120,7 @@ pub(super) fn judge(
     let bound = median(same.iter().map(|(_, one)| one.bounds.shift.0)).unwrap_or_default();
     let deviation = bound / BOUND_DEVIATIONS;
     let along = |one: &AcceptedSighting| (one.pose * one.middle).coords.dot(&line.direction);
-    let timed = Slope::of(
+    let timed = Slope::fit(
         same.iter()
             .map(|(moment, one)| (-since(moment), along(one))),
     );
@@ -129,7 +129,7 @@ pub(super) fn judge(
     let way = |moment: &Moment| count(moment) * line.way_per_count.0;
     let mut rate = 1.0;
     if is_counted {
-        let counted = Slope::of(same.iter().map(|(moment, one)| (way(moment), along(one))));
+        let counted = Slope::fit(same.iter().map(|(moment, one)| (way(moment), along(one))));
         let seen_deviation = deviation / counted.spread;
         let slip_deviation = line.slip.hypot(line.scale_bound) / BOUND_DEVIATIONS;
         let off = counted.slope - 1.0;
@@ -242,7 +242,7 @@ struct Slope {
 }
 
 impl Slope {
-    fn of(points: impl Iterator<Item = (f64, f64)> + Clone) -> Self {
+    fn fit(points: impl Iterator<Item = (f64, f64)> + Clone) -> Self {
         let num = points.clone().count().max(1) as f64;
         let sum = points
             .clone()

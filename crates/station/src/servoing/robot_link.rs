@@ -39,7 +39,7 @@ const CONNECT_TIMEOUT: Duration = Duration::from_secs(5);
 
 impl RobotAddress {
     /// An address of a controller of this protocol.
-    pub fn of(protocol: StreamProtocol, at: SocketAddr) -> Self {
+    pub fn new(protocol: StreamProtocol, at: SocketAddr) -> Self {
         match protocol {
             StreamProtocol::Egm => Self::Egm(at),
             StreamProtocol::Rsi => Self::Rsi(at),
@@ -66,7 +66,7 @@ impl RobotAddress {
     /// The same protocol at another address.
     #[must_use]
     pub fn at(self, at: SocketAddr) -> Self {
-        Self::of(self.protocol(), at)
+        Self::new(self.protocol(), at)
     }
 
     /// What speaks its protocol. RSI needs the arm.
@@ -97,7 +97,7 @@ impl FromStr for RobotAddress {
             Ok(ip) if protocol == StreamProtocol::Rtde => Some(SocketAddr::new(ip, RTDE_PORT)),
             _ => parse_address(at).ok(),
         };
-        Ok(Self::of(protocol, at.ok_or_else(wrong)?))
+        Ok(Self::new(protocol, at.ok_or_else(wrong)?))
     }
 }
 

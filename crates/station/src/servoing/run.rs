@@ -391,7 +391,7 @@ pub fn servo_simulated(
     let (robot, mut link) = SimulatedRobot::start(cell.controller(protocol), protocol)?;
     on_news(Some(ServoNews::Begins {
         task: Arc::new(cell.task.clone()),
-        robot: RobotAddress::of(protocol, link.address()),
+        robot: RobotAddress::new(protocol, link.address()),
     }));
     let row = ServoRun {
         is_simulated: true,

@@ -95,7 +95,7 @@ const SAMPLE: usize = 4_000;
 
 impl Pair {
     /// Reads and prepares both clouds.
-    pub fn of(source: &PairSource, library_cache: &LibraryCache) -> Result<Self, UserError> {
+    pub fn load(source: &PairSource, library_cache: &LibraryCache) -> Result<Self, UserError> {
         match source {
             PairSource::MovedCopy { part, start } => {
                 let loaded = library_cache.get();

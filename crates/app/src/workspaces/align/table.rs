@@ -72,7 +72,7 @@ pub struct TableFigures {
 
 impl TableCell {
     /// Runs the method on a pair whose truth is known.
-    pub fn of(method: PoseMethod, pair: &Pair, is_cancelled: &dyn Fn() -> bool) -> Self {
+    pub fn run(method: PoseMethod, pair: &Pair, is_cancelled: &dyn Fn() -> bool) -> Self {
         let (aligned, time) = estimated(method, pair, is_cancelled);
         let figures = aligned.map(|estimate| {
             let error = pair.true_error(&estimate.target_from_source);

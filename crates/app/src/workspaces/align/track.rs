@@ -72,18 +72,18 @@ pub(super) fn estimated(
 
 impl MethodRun {
     /// Runs the method on the pair and records its track.
-    pub fn of(method: PoseMethod, pair: &Pair, is_cancelled: &dyn Fn() -> bool) -> Self {
+    pub fn run(method: PoseMethod, pair: &Pair, is_cancelled: &dyn Fn() -> bool) -> Self {
         let (aligned, time) = estimated(method, pair, is_cancelled);
         Self {
             method,
             time,
-            track: aligned.map(|estimate| Track::of(&estimate, pair)),
+            track: aligned.map(|estimate| Track::record(&estimate, pair)),
         }
     }
 }
 
 impl Track {
-    fn of(estimate: &PoseEstimate, pair: &Pair) -> Self {
+    fn record(estimate: &PoseEstimate, pair: &Pair) -> Self {
         let end = estimate.target_from_source;
         let steps = estimate.iterations.iter();
         let mut poses: Vec<RigidTransform> = steps.map(|step| step.target_from_source).collect();

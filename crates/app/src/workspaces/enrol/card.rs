@@ -49,7 +49,7 @@ pub(super) fn ui(
             if let Some(texture) = index.and_then(|index| thumbnails.of_part(index)) {
                 paint_fitted(ui.painter(), texture, rect.shrink(2.0));
             }
-            let number = library.and_then(|library| library.numbers.of(&part.name));
+            let number = library.and_then(|library| library.numbers.number_of(&part.name));
             origin(ui, part, number);
             ui.add_space(space::SMALL);
             ui.add_enabled_ui(can_change, |ui| {

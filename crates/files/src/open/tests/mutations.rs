@@ -66,7 +66,7 @@ fn seeds() -> Vec<Seed> {
             seeds.push((name, bytes));
         }
     }
-    let camera = crate::DepthCamera::of(&depth_frame());
+    let camera = crate::DepthCamera::from_frame(&depth_frame());
     seeds.push(("camera", serde_json::to_vec(&camera).unwrap()));
     seeds
 }
