@@ -21,6 +21,7 @@ use super::{
     input::{Choice, choice, within},
     plant,
     record::HistoryChoice,
+    verdict::in_column,
 };
 use inspection::library::Truth;
 use records::history::{
@@ -28,7 +29,6 @@ use records::history::{
     Summary, Traceability, VerdictFilter,
 };
 use stages::reference::ReferenceParams;
-use texts::Message;
 
 /// List, show and export past inspections, made here or in the window
 #[derive(Debug, Args)]
@@ -455,11 +455,10 @@ fn cells(row: &Summary) -> [String; 10] {
         row.number.to_string(),
         here(row.at),
         row.verdict.to_string().to_lowercase(),
-        match (&row.part, row.mirror_of()) {
-            (Some(part), _) => part.clone(),
-            (None, Some(part)) => Message::new("mirror-image").with("part", part).to_string(),
-            (None, None) => "-".into(),
-        },
+        in_column(
+            row.identification(),
+            row.part.as_deref().unwrap_or(&row.title),
+        ),
         row.score
             .map_or_else(|| "-".into(), |[score, _]| format!("{score:.2}")),
         match (row.parent, row.num_below) {

@@ -213,7 +213,7 @@ impl EmptyCellChoice {
         for warning in &warnings {
             console.warn(warning, &FileAdvice(warning));
         }
-        Ok(Some(Arc::new(EmptyCell::of(&scene).advised()?)))
+        Ok(Some(Arc::new(EmptyCell::from_scene(&scene).advised()?)))
     }
 }
 

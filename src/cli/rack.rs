@@ -18,7 +18,7 @@ use inspection::{
     rack::{MaxTurn, RackError, RackFile, RackFrame, ambiguity},
 };
 use robot::RobotFrame;
-use stages::{reference::Reference, segment::MAX_PARTS};
+use stages::segment::MAX_PARTS;
 
 /// Where parts may hang.
 #[derive(Clone, Debug, Default, Args)]
@@ -176,7 +176,7 @@ fn add(args: &AddArgs, console: &mut Console) -> anyhow::Result<Outcome> {
         // Never that of another place, which would move.
         let numbered = args.each.then(|| file.new_place_name());
         if let Some(place) = args.place.as_deref().or(numbered.as_deref()) {
-            let middle = (part.best_reference(&load.library)).and_then(Reference::middle);
+            let middle = part.middle(&load.library);
             if let Some(warning) = ambiguity(part) {
                 console.advise(
                     &format_args!("warning: {name}: {warning}"),

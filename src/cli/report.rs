@@ -35,7 +35,6 @@ use records::{
 };
 use robot::{Convention, RobotFrame};
 use stages::{
-    reference::Reference,
     scene::{EmptyCell, SceneCloud},
     stand_off::stand_off,
 };
@@ -293,7 +292,7 @@ impl Reporter<'_> {
             },
             trace: &self.trace,
             inspection,
-            middle: reference.and_then(Reference::middle),
+            middle: inspection.middle(&self.load.library),
             stand_off: stand_off.as_ref(),
             recipe: &self.recipe,
             library_identity: &self.library_identity,

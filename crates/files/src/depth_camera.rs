@@ -259,7 +259,7 @@ const FOLDS: &str = "the distortion folds back inside the picture";
 
 impl DepthCamera {
     /// Returns the camera that took a frame.
-    pub fn of(frame: &DepthFrame) -> Self {
+    pub fn from_frame(frame: &DepthFrame) -> Self {
         Self {
             intrinsics: frame.intrinsics,
             metres_per_unit: frame.metres_per_unit,

@@ -179,7 +179,7 @@ pub enum CameraDoubt {
 const MIN_PIXELS: usize = 1000;
 /// Largest distance of the optical axis from the middle, as a share of the picture's diagonal. Depth cameras come up to
 /// 0.053 (the narrow field of an Azure Kinect, which is cut out of a larger picture), most to 0.03.
-const MAX_OFF_CENTRE: f64 = 0.06;
+const MAX_OFF_CENTRE_SHARE: f64 = 0.06;
 /// Largest ratio of the focal lengths: pixels of depth cameras are square.
 const MAX_FOCAL_RATIO: f64 = 1.05;
 /// Fields of view along the longer side: long lenses of structured-light cameras have 25°, the widest time-of-flight
@@ -203,7 +203,7 @@ impl Intrinsics {
         }
         let sides = [width as f64, height as f64];
         let off = (cx - (sides[0] - 1.0) / 2.0).hypot(cy - (sides[1] - 1.0) / 2.0);
-        if off > MAX_OFF_CENTRE * sides[0].hypot(sides[1]) {
+        if off > MAX_OFF_CENTRE_SHARE * sides[0].hypot(sides[1]) {
             return Some(CameraDoubt::OffCentre {
                 centre: [cx, cy],
                 off,

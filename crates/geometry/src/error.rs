@@ -32,7 +32,7 @@ pub struct Fault {
 }
 
 impl Fault {
-    fn of(panic: &(dyn Any + Send)) -> Self {
+    fn from_panic(panic: &(dyn Any + Send)) -> Self {
         let text = panic.downcast_ref::<&str>().map(ToString::to_string);
         let text = text.or_else(|| panic.downcast_ref::<String>().cloned());
         Self {
@@ -54,7 +54,7 @@ texts::display!(Fault);
 /// Anything that `work` shares with others must stay usable if it breaks off half-way: frames and libraries are only
 /// ever read or replaced whole.
 pub fn guarded<T>(work: impl FnOnce() -> T) -> Result<T, Fault> {
-    catch_unwind(AssertUnwindSafe(work)).map_err(|panic| Fault::of(panic.as_ref()))
+    catch_unwind(AssertUnwindSafe(work)).map_err(|panic| Fault::from_panic(panic.as_ref()))
 }
 
 /// Locks a mutex and ignores poisoning. Use it only for values that are replaced whole or appended to: these stay valid

@@ -36,15 +36,15 @@ use files::words_of;
 use geometry::error::{Advice, guarded, lock};
 
 /// How long the inspecting thread waits for a trigger before it calls [`Inspector::turn`] again.
-const TURN: Duration = Duration::from_millis(100);
+const POLL_INTERVAL: Duration = Duration::from_millis(100);
 /// How often a listener polls for connections: std's `accept` cannot be interrupted.
-const ACCEPT_TURN: Duration = Duration::from_millis(10);
+const ACCEPT_INTERVAL: Duration = Duration::from_millis(10);
 /// How long a refused connection stays open, so that its client can read why.
-pub(super) const LINGER: Duration = Duration::from_secs(1);
+pub(super) const LINGER_TIME: Duration = Duration::from_secs(1);
 /// Most refused connections that are kept open at a time.
 const MAX_TURNED_AWAY: usize = 64;
 /// How long a connection without a request keeps its place while others wait: a robot sends its request right away.
-const SILENT_GRACE: Duration = Duration::from_secs(1);
+const MAX_SILENCE: Duration = Duration::from_secs(1);
 /// How long a client may take to accept its answer before it is disconnected.
 pub(super) const WRITE_TIMEOUT: Duration = Duration::from_secs(5);
 /// Short, because the answer to a refused client fits into the socket's empty send buffer.
@@ -261,7 +261,7 @@ impl Shared {
 
     /// Closes the oldest connection without a request so far; false if there is none, or only since a moment ago.
     fn close_silent(&self) -> bool {
-        let oldest = lock(&self.silent).pop_front_if(|(since, _)| since.elapsed() > SILENT_GRACE);
+        let oldest = lock(&self.silent).pop_front_if(|(since, _)| since.elapsed() > MAX_SILENCE);
         // Its thread reads the end of the stream and ends. If this fails, the client has closed the connection.
         let closed = oldest.map(|(_, stream)| stream.shutdown(Shutdown::Both));
         closed.is_some()
@@ -415,7 +415,7 @@ impl Server {
         };
         while inspector.turn().is_continue() {
             // A timeout is the only error: the server itself keeps a sender.
-            if let Ok(job) = jobs.recv_timeout(TURN) {
+            if let Ok(job) = jobs.recv_timeout(POLL_INTERVAL) {
                 self.inspect(&job, inspector);
             }
         }
@@ -503,10 +503,10 @@ fn listen(listener: Listener, socket: &TcpListener, shared: &Arc<Shared>, jobs: 
     let mut clients: Vec<JoinHandle<()>> = Vec::new();
     let mut turned_away: VecDeque<(TcpStream, Instant)> = VecDeque::new();
     while !shared.is_stopping() {
-        turned_away.retain(|(_, since)| since.elapsed() < LINGER);
+        turned_away.retain(|(_, since)| since.elapsed() < LINGER_TIME);
         let Ok((stream, peer)) = socket.accept() else {
             // No connection, one that is gone again, or the system has no sockets left.
-            thread::sleep(ACCEPT_TURN);
+            thread::sleep(ACCEPT_INTERVAL);
             continue;
         };
         clients.retain(|client| !client.is_finished());
@@ -586,10 +586,10 @@ pub(super) fn answer_to(
     };
     let at = shared.situation();
     match inspected {
-        Ok((inspected, place)) => {
+        Ok((inspected, index)) => {
             let index = match request {
-                Request::Part { index, .. } => index.saturating_sub(1) as usize,
-                _ => place,
+                Request::Part { place, .. } => place.saturating_sub(1) as usize,
+                _ => index,
             };
             Answer::of(&request, &inspected, index, &at)
         }

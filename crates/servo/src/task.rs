@@ -281,7 +281,7 @@ impl Task {
                 * control_from_goal
                 * flange_from_control.inverse(),
             flange_from_control,
-            error: Twist::of(&control_from_goal),
+            error: Twist::from_transform(&control_from_goal),
         }
     }
 
@@ -289,7 +289,7 @@ impl Task {
     pub(crate) fn error_at(robot_from_flange: &RigidTransform, goal: &Goal) -> Twist {
         let control = robot_from_flange * goal.flange_from_control;
         let wanted = goal.robot_from_flange * goal.flange_from_control;
-        Twist::of(&(control.inverse() * wanted))
+        Twist::from_transform(&(control.inverse() * wanted))
     }
 }
 

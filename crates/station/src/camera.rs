@@ -35,10 +35,10 @@ use serve::{Asked, CameraState, CameraStatus, Problem, Unanswered};
 
 /// Least time between the two frames that must agree, if the scene was still until the first one. More would show slower
 /// motion and let robots wait longer.
-const APART: Duration = Duration::from_millis(150);
+const MIN_FRAME_INTERVAL: Duration = Duration::from_millis(150);
 
 /// How often a waiting trigger checks whether the service is ending.
-const TURN: Duration = Duration::from_millis(100);
+const POLL_INTERVAL: Duration = Duration::from_millis(100);
 
 /// Least difference between two clocks that counts: clocks that are set from one time server differ by less. It must be
 /// short, because a file from before a trigger may pass for a new one if its clock is fast by this much.
@@ -414,7 +414,7 @@ impl Camera {
                 refuse_all(inspections);
                 return Ok(true);
             }
-            MotionState::Steady { .. } => APART,
+            MotionState::Steady { .. } => MIN_FRAME_INTERVAL,
             MotionState::Watching => SteadyParams::default().settle,
         };
         let later = opened.wait(at_most, is_ending, |captured| {
@@ -483,7 +483,7 @@ impl Opened {
         while !is_ending() {
             // Read the status first, so that frames delivered just before the end are still taken.
             let status = self.feed.status();
-            match self.feed.wait(TURN) {
+            match self.feed.wait(POLL_INTERVAL) {
                 Some(FeedItem::Captured(captured)) => match is_wanted(&captured) {
                     Ok(true) => return Ok(captured),
                     Ok(false) => {}
@@ -532,7 +532,7 @@ mod tests {
         fixtures::shipped_library,
         pipeline::{Recipe, Unwatched, run},
     };
-    use stages::{reference::Reference, scene::scene_from_image};
+    use stages::scene::scene_from_image;
 
     /// Long enough for a busy machine; normally what is waited for comes at once.
     const PATIENCE: Duration = Duration::from_mins(1);
@@ -774,9 +774,9 @@ mod tests {
     }
 
     /// Frames per second of the line.
-    const RATE: f64 = 15.0;
+    const FRAME_RATE_HZ: f64 = 15.0;
     /// Seconds from one of its parts to the next.
-    const EVERY: f64 = 6.0;
+    const PART_INTERVAL_S: f64 = 6.0;
     /// Long enough for all of its frames on a busy machine.
     const LINE_PATIENCE: Duration = Duration::from_mins(30);
 
@@ -789,8 +789,10 @@ mod tests {
     impl Line {
         fn new() -> Self {
             let spec = SimulatedSpec {
-                scene: CellScene::Line { every: EVERY },
-                frames_per_second: RATE,
+                scene: CellScene::Line {
+                    every: PART_INTERVAL_S,
+                },
+                frames_per_second: FRAME_RATE_HZ,
                 ..SimulatedSpec::default()
             };
             Self {
@@ -811,7 +813,7 @@ mod tests {
 
         fn next(&mut self, _: Duration) -> Result<NextCapture, CaptureError> {
             self.number += 1;
-            let since = SignedDuration::from_secs_f64((self.number - 1) as f64 / RATE);
+            let since = SignedDuration::from_secs_f64((self.number - 1) as f64 / FRAME_RATE_HZ);
             let (image, truth) = self.cell.frame(self.number);
             Ok(NextCapture::Captured(Captured {
                 image,
@@ -844,7 +846,7 @@ mod tests {
         let watch = opened.motion.as_ref().expect("watched");
         let (mut num_accepted, mut num_moving) = (0, 0);
         // Every half second of one part, which comes in, rests from about 2 to 5.2 s, and leaves.
-        let (_, truth) = resting.frame((4.0 * RATE) as u64);
+        let (_, truth) = resting.frame((4.0 * FRAME_RATE_HZ) as u64);
         let rest = truth.expect("of one part").camera_from_part;
         for trigger in 0..12 {
             let due = Duration::from_millis(500 * trigger);
@@ -865,8 +867,7 @@ mod tests {
             let truth = Arc::clone(frame.truth.as_ref().expect("known"));
             let mut inspection = inspect(frame).remove(0);
             let was_accepted = inspection.verdict.is_accepted();
-            let middle = inspection.best_reference(&library);
-            let middle = middle.and_then(Reference::middle);
+            let middle = inspection.middle(&library);
             let checked = camera.refuse_if_moving(
                 taken_at,
                 slice::from_mut(&mut inspection),

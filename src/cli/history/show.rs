@@ -9,10 +9,11 @@ use super::{ShowArgs, again, here};
 use crate::cli::{
     Outcome,
     console::{Advised as _, Console, Table, in_columns, marked_simulated},
+    verdict::what_hangs,
 };
 use inspection::{
     library::Truth,
-    pipeline::{ExpectedPart, RefusalKind, is_like},
+    pipeline::{ExpectedPart, RefusalKind},
 };
 use records::history::{
     Differences, FrameLoss, FrameRecord, History, InspectionDetail, InspectionSummary, Record,
@@ -286,7 +287,9 @@ fn record_table(from: ReadFrom<'_>, record: &Record) -> Table {
         row(name, text.to_owned());
     }
     row("verdict", summary.verdict.to_string().to_lowercase());
-    row("part", summary.part.clone().unwrap_or_default());
+    if let Some(part) = &detail.nearest {
+        row("part", what_hangs(summary.identification(), part));
+    }
     row("place", detail.place().unwrap_or_default());
     row("rack", summary.rack.clone().unwrap_or_default());
     let words = |parts: &[ExpectedPart]| {
@@ -295,9 +298,6 @@ fn record_table(from: ReadFrom<'_>, record: &Record) -> Table {
     };
     row("expected", words(detail.expected().parts()));
     row("missing", words(&detail.missing().unwrap_or_default()));
-    if summary.part != detail.nearest && summary.score.is_none_or(|[score, _]| is_like(score)) {
-        row("nearest", detail.nearest.clone().unwrap_or_default());
-    }
     if let Some([score, margin]) = summary.score {
         row("score", format!("{score:.3}, margin {margin:.3}"));
     }

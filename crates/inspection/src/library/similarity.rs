@@ -292,14 +292,14 @@ fn confirmed(scene: &Scene<'_>, others: &[Reference], ranking: &MatchRanking) ->
 /// Returns the scores of the outlines, and of those examined whose clouds are laid onto each other, the share that coincides.
 fn laid_on(reference: &Reference, others: &[Reference], ranking: &MatchRanking) -> Vec<PairScore> {
     let entries = ranking.entries.as_slice();
-    let found = map_each(entries.len(), num_cores(), |place| {
-        let outline = entries[place].score;
-        let other = &others[entries[place].reference];
+    let found = map_each(entries.len(), num_cores(), |index| {
+        let outline = entries[index].score;
+        let other = &others[entries[index].reference];
         let is_whole = other.cut.is_nothing();
         // Laying clouds onto each other takes some 0.1 s, so only where it decides.
         let score = if is_whole && outline >= MIN_INDISTINGUISHABLE_SCORE {
             outline.min(coincidence(reference, other))
-        } else if !is_whole && place < NUM_EXAMINED {
+        } else if !is_whole && index < NUM_EXAMINED {
             coincidence(reference, other)
         } else {
             outline

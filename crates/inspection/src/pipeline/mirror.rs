@@ -194,9 +194,9 @@ fn is_own_mirror_image(reference: &Reference) -> bool {
 /// if it ranked too low to be aligned, or was not compared at all.
 fn put_first(inspection: &mut Inspection, named: &ConfirmedMatch, recipe: &Recipe) {
     let entries = &mut inspection.ranking.entries;
-    let mut places = entries.iter();
-    let place = places.position(|entry| entry.part == named.part);
-    if place.is_none() {
+    let mut sorted = entries.iter();
+    let index = sorted.position(|entry| entry.part == named.part);
+    if index.is_none() {
         entries.push(ConfirmedMatch {
             score: 0.0,
             rival: 0.0,
@@ -207,9 +207,9 @@ fn put_first(inspection: &mut Inspection, named: &ConfirmedMatch, recipe: &Recip
             ..named.clone()
         });
     }
-    let place = place.unwrap_or(entries.len() - 1);
-    if place > 0 {
-        entries[..=place].rotate_right(1);
+    let index = index.unwrap_or(entries.len() - 1);
+    if index > 0 {
+        entries[..=index].rotate_right(1);
         inspection.pose = entries[0].pose.clone().map(Ok);
         inspection.verdict = verdict(&inspection.ranking, inspection.pose.as_ref(), recipe);
     }

@@ -532,8 +532,8 @@ impl<R: Parameters> FromStr for Setting<R> {
             }
             Kind::Choice(choice) => {
                 let mut options = choice.options.iter();
-                let place = options.position(|option| option.eq_ignore_ascii_case(written));
-                place.ok_or_else(|| SettingError::NotAnOption {
+                let index = options.position(|option| option.eq_ignore_ascii_case(written));
+                index.ok_or_else(|| SettingError::NotAnOption {
                     key,
                     found: found.clone(),
                     options: parameter.range_text(),

@@ -1,7 +1,7 @@
 //! Errors of a store, worded for the person who chose its address and credentials.
 //!
 //! The client wraps each error several times. The [connector](super::connector) therefore puts a [`StoreError`] inside, where
-//! it still knows the connection and the store's whole answer; [`StoreError::of`] finds it again.
+//! it still knows the connection and the store's whole answer; [`StoreError::from_object_store`] finds it again.
 
 use std::{error::Error, io};
 
@@ -104,7 +104,7 @@ pub enum StoreError {
 
 impl StoreError {
     /// The cause of the client's error.
-    pub(super) fn of(error: &object_store::Error) -> Self {
+    pub(super) fn from_object_store(error: &object_store::Error) -> Self {
         let mut innermost: &(dyn Error + 'static) = error;
         loop {
             let found = innermost;
@@ -269,12 +269,15 @@ mod tests {
             source: Box::new(io_like(source)),
         };
         let denied = HttpError::new(HttpErrorKind::Unknown, StoreError::Forbidden);
-        assert_eq!(StoreError::of(&wrapped(denied)), StoreError::Forbidden);
+        assert_eq!(
+            StoreError::from_object_store(&wrapped(denied)),
+            StoreError::Forbidden
+        );
         let full = object_store::Error::Generic {
             store: "LocalFileSystem",
             source: Box::new(io::Error::from(io::ErrorKind::StorageFull)),
         };
-        let text = text_of(&StoreError::of(&full));
+        let text = text_of(&StoreError::from_object_store(&full));
         assert_eq!(
             text,
             "the disk is full; Make room on the disk, or choose another one"
@@ -283,7 +286,7 @@ mod tests {
             store: "S3",
             source: "unexpected\n  answer: <?xml?><Error/>".into(),
         };
-        let text = text_of(&StoreError::of(&other));
+        let text = text_of(&StoreError::from_object_store(&other));
         assert!(text.starts_with("unexpected answer; "), "{text}");
     }
 

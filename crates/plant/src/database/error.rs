@@ -147,7 +147,7 @@ pub enum DatabaseError {
 }
 
 impl DatabaseError {
-    pub(super) fn of(error: &tokio_postgres::Error, database: &DatabaseAddress) -> Self {
+    pub(super) fn from_postgres(error: &tokio_postgres::Error, database: &DatabaseAddress) -> Self {
         let database = Box::new(database.clone());
         let Some(reported) = error.as_db_error() else {
             return Self::of_connection(error, database);

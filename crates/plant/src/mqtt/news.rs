@@ -69,7 +69,7 @@ pub enum LinkProblem {
 }
 
 impl LinkProblem {
-    pub(super) fn of(error: ConnectionError, broker: &BrokerAddress) -> Self {
+    pub(super) fn from_connection(error: ConnectionError, broker: &BrokerAddress) -> Self {
         let broker = broker.clone();
         match error {
             ConnectionError::Io(error) => Self::Unreachable {

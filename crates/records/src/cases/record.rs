@@ -216,13 +216,13 @@ impl<'a> EvaluationRecord<'a> {
             tally: *tally,
         });
         let cells = confusion.cells.iter();
-        let cells = cells.map(|((truth, answered), places)| CellRecord {
+        let cells = cells.map(|((truth, answered), results)| CellRecord {
             truth,
             accepted_as: match answered {
                 CaseAnswer::Part(part) => Some(part),
                 CaseAnswer::NotAccepted => None,
             },
-            num: places.len(),
+            num: results.len(),
         });
         Self {
             schema: RECORD_SCHEMA,

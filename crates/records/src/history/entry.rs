@@ -21,8 +21,8 @@ use geometry::{
 use inspection::{
     library::Truth,
     pipeline::{
-        Expected, ExpectedPart, Inspection, NamedRecipe, Recipe, RecipeLabel, Refusal, RefusalKind,
-        Verdict,
+        AcceptParams, Expected, ExpectedPart, Identification, Inspection, NamedRecipe, Recipe,
+        RecipeLabel, Refusal, RefusalKind, Verdict,
     },
 };
 use stages::{pose::PoseEstimate, scan::Shot, scene::SceneCloud};
@@ -132,9 +132,14 @@ pub struct Summary {
 }
 
 impl Summary {
+    /// Says what hung there. The limits of its recipe are not in the row: those of the built-in recipe decide.
+    pub fn identification(&self) -> Identification {
+        Identification::new(self.reason.as_ref(), self.score, &AcceptParams::default())
+    }
+
     /// Returns the title of the part of which it is the mirror image, if it is one.
     pub fn mirror_of(&self) -> Option<&str> {
-        let is_mirrored = self.reason.as_ref().is_some_and(RefusalKind::is_mirrored);
+        let is_mirrored = self.identification() == Identification::MirrorImage;
         is_mirrored.then_some(self.title.as_str())
     }
 

@@ -194,7 +194,7 @@ pub fn write_as(folder: &Path, stem: &str, scene: &SceneCloud) -> Result<FrameRe
     let mut content = Vec::new();
     let packed = match &depth {
         Some(frame) => {
-            write_its_camera(&path, &DepthCamera::of(frame))?;
+            write_its_camera(&path, &DepthCamera::from_frame(frame))?;
             write_depths(&mut content, frame)
         }
         None => write_pcd(&mut content, cloud),
@@ -448,7 +448,7 @@ mod tests {
     fn a_depth_image_comes_back_to_the_bit_and_other_programs_can_open_it() {
         let folder = tempfile::tempdir().expect("a folder");
         let mut scene = captured();
-        scene.empty_cell = Some(Arc::new(EmptyCell::of(&scene).expect("a picture")));
+        scene.empty_cell = Some(Arc::new(EmptyCell::from_scene(&scene).expect("a picture")));
         let at = Timestamp::UNIX_EPOCH;
         let record = write(folder.path(), &scene, at).expect("written");
         let record = record.expect("kept");
@@ -462,7 +462,7 @@ mod tests {
     fn a_damaged_empty_cell_is_written_again_with_the_next_frame() {
         let folder = tempfile::tempdir().expect("a folder");
         let mut scene = captured();
-        scene.empty_cell = Some(Arc::new(EmptyCell::of(&scene).expect("a picture")));
+        scene.empty_cell = Some(Arc::new(EmptyCell::from_scene(&scene).expect("a picture")));
         let write = || write(folder.path(), &scene, Timestamp::UNIX_EPOCH).expect("written");
         let first = write().expect("kept");
         let cell = folder

@@ -108,7 +108,7 @@ pub enum BadRequest {
 }
 
 /// Number of characters of a bad request that are shown.
-const SHOWN: usize = 40;
+const MAX_SHOWN_CHARS: usize = 40;
 
 impl BadRequest {
     pub(super) fn unknown(found: &[u8]) -> Self {
@@ -155,7 +155,7 @@ impl BadRequest {
 }
 
 fn shown(bytes: &[u8]) -> String {
-    plain(&String::from_utf8_lossy(bytes), SHOWN)
+    plain(&String::from_utf8_lossy(bytes), MAX_SHOWN_CHARS)
 }
 
 const SEND_REQUEST: &str =

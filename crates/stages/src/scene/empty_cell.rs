@@ -49,7 +49,7 @@ impl SceneCloud {
 
 impl EmptyCell {
     /// Creates the empty cell from a capture without a part.
-    pub fn of(scene: &SceneCloud) -> Result<Self, EmptyCellError> {
+    pub fn from_scene(scene: &SceneCloud) -> Result<Self, EmptyCellError> {
         let grid = scene.cloud.grid.ok_or(EmptyCellError::NoPicture)?;
         let depths: Vec<f32> = scene.cloud.points.iter().map(depth_of).collect();
         // The minimum over a square: rows first, then columns.
@@ -85,7 +85,7 @@ impl EmptyCell {
     fn new(grid: Grid, nearest: Vec<f32>) -> Self {
         let is_reading = |i: usize| nearest.get(i).is_some_and(|z| z.is_finite());
         Self {
-            field_of_view: FieldOfView::of(grid, is_reading, None),
+            field_of_view: FieldOfView::from_readings(grid, is_reading, None),
             grid,
             nearest,
         }
@@ -137,7 +137,7 @@ mod tests {
     #[test]
     fn a_heap_of_points_is_no_empty_cell() {
         assert_eq!(
-            EmptyCell::of(&SceneCloud::default()),
+            EmptyCell::from_scene(&SceneCloud::default()),
             Err(EmptyCellError::NoPicture)
         );
     }

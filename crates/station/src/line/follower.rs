@@ -101,7 +101,7 @@ impl Answering<'_> {
         let (followed, recorded) = line.tracker.see(
             moment,
             &mut inspections,
-            |part| part.best_reference(self.library)?.middle(),
+            |part| part.middle(self.library),
             |_, part, on_line| {
                 let hung = HungId::new();
                 if let Some(here) = &on_line {

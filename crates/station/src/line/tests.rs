@@ -62,9 +62,7 @@ impl Seen {
         let scene = scene_from_frame(&frame);
         let inspection = run(&scene, &library, &Recipe::default(), &Unwatched).expect("run");
         assert!(inspection.verdict.is_accepted() && !inspection.touches_edge());
-        let middle = inspection
-            .best_reference(&library)
-            .and_then(Reference::middle);
+        let middle = inspection.middle(&library);
         Self {
             scene: Arc::new(scene),
             inspection,

@@ -31,15 +31,15 @@ pub enum RobotAddress {
 /// The port at which Universal Robots' controllers listen for RTDE.
 const RTDE_PORT: u16 = 30004;
 /// How many ports lower they listen for programs.
-const PROGRAM_PORT_BELOW: u16 = 2;
+const PROGRAM_PORT_OFFSET: u16 = 2;
 /// Greatest size of a UDP packet.
-const MAX_PACKET: usize = 65_536;
+const MAX_PACKET_BYTES: usize = 65_536;
 /// How long a controller may take to accept a connection or bytes.
 const CONNECT_TIMEOUT: Duration = Duration::from_secs(5);
 
 impl RobotAddress {
     /// An address of a controller of this protocol.
-    pub fn of(protocol: StreamProtocol, at: SocketAddr) -> Self {
+    pub fn new(protocol: StreamProtocol, at: SocketAddr) -> Self {
         match protocol {
             StreamProtocol::Egm => Self::Egm(at),
             StreamProtocol::Rsi => Self::Rsi(at),
@@ -66,7 +66,7 @@ impl RobotAddress {
     /// The same protocol at another address.
     #[must_use]
     pub fn at(self, at: SocketAddr) -> Self {
-        Self::of(self.protocol(), at)
+        Self::new(self.protocol(), at)
     }
 
     /// What speaks its protocol. RSI needs the arm.
@@ -97,7 +97,7 @@ impl FromStr for RobotAddress {
             Ok(ip) if protocol == StreamProtocol::Rtde => Some(SocketAddr::new(ip, RTDE_PORT)),
             _ => parse_address(at).ok(),
         };
-        Ok(Self::of(protocol, at.ok_or_else(wrong)?))
+        Ok(Self::new(protocol, at.ok_or_else(wrong)?))
     }
 }
 
@@ -190,7 +190,7 @@ impl RobotLink {
                     stream.map_err(|source| LinkError::Connect { at, source })
                 };
                 let rtde = connect(at)?;
-                let port = at.port().saturating_sub(PROGRAM_PORT_BELOW);
+                let port = at.port().saturating_sub(PROGRAM_PORT_OFFSET);
                 let program_at = SocketAddr::new(at.ip(), port);
                 let sent = connect(program_at)?.write_all(Rtde::PROGRAM.as_bytes());
                 sent.map_err(|source| LinkError::Lost {
@@ -203,7 +203,7 @@ impl RobotLink {
         Ok(Self {
             at,
             socket,
-            buffer: vec![0; MAX_PACKET],
+            buffer: vec![0; MAX_PACKET_BYTES],
         })
     }
 

@@ -112,7 +112,7 @@ const SIMULATED_HAND_EYE: HandEyeError = HandEyeError {
     turn: Radians(0.035),
 };
 /// How long the camera's thread waits for a frame before it looks whether the run is over.
-const TURN: Duration = Duration::from_millis(100);
+const POLL_INTERVAL: Duration = Duration::from_millis(100);
 
 impl ServoJob<'_> {
     fn drive(
@@ -310,7 +310,7 @@ pub fn servo_real(
         if is_over.load(Ordering::SeqCst) || feed.status().state.is_over() {
             return None;
         }
-        let Some(FeedItem::Captured(captured)) = feed.wait(TURN) else {
+        let Some(FeedItem::Captured(captured)) = feed.wait(POLL_INTERVAL) else {
             continue;
         };
         let taken_at = captured.arrived.saturating_duration_since(started);
@@ -366,7 +366,7 @@ pub fn servo_simulated(
         noise: 1.0,
         start: (Metres(0.25), Radians::from_degrees(25.0)),
         hand_eye: SIMULATED_HAND_EYE,
-        frame_period: TURN,
+        frame_period: POLL_INTERVAL,
         delay: Duration::ZERO,
         dynamics: ArmDynamics::default(),
         disturbance: Disturbance::None,
@@ -378,7 +378,7 @@ pub fn servo_simulated(
     let (robot, mut link) = SimulatedRobot::start(cell.controller(protocol), protocol)?;
     on_news(Some(ServoNews::Begins {
         task: Arc::new(cell.task.clone()),
-        robot: RobotAddress::of(protocol, link.address()),
+        robot: RobotAddress::new(protocol, link.address()),
     }));
     let row = ServoRun {
         is_simulated: true,

@@ -147,7 +147,7 @@ impl SetupError {
 }
 
 /// Radius around the camera that is kept clear.
-const CAMERA_RADIUS: f64 = 0.06;
+const CAMERA_RADIUS_M: f64 = 0.06;
 /// How far the start of a path may be away: the nozzle is much nearer to the part than the camera.
 const MAX_WAY_TO_PATH: Metres = Metres(1.2);
 
@@ -272,7 +272,7 @@ impl ServoSetup {
             flange_from_camera, ..
         } = &task.camera
         {
-            keep_clear(flange_from_camera, CAMERA_RADIUS);
+            keep_clear(flange_from_camera, CAMERA_RADIUS_M);
         }
         fence.arm.clone_from(&self.placed);
         if !task.is_part_held() {

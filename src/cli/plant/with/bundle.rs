@@ -215,7 +215,7 @@ fn note_other_numbers(
     let names = library.names().advised()?;
     let is_here = |part: &PartName| names.iter().any(|name| name == part.as_str());
     for (part, theirs) in published.all().filter(|(part, _)| is_here(part)) {
-        match numbers.of(part) {
+        match numbers.number_of(part) {
             Some(here) if here != theirs => console.entry(
                 "number",
                 &format_args!("{part} keeps {here}, the version has {theirs}"),
@@ -232,7 +232,11 @@ fn note_other_numbers(
 
 fn version(choice: &LibraryChoice, console: &mut Console) -> anyhow::Result<Outcome> {
     let place = choice.open(console)?;
-    let taken = place.folder().map(TakenBundle::of).transpose().advised()?;
+    let taken = place
+        .folder()
+        .map(TakenBundle::read)
+        .transpose()
+        .advised()?;
     let (Some(folder), Some(taken)) = (place.folder(), taken.flatten()) else {
         console.line(&format_args!(
             "{}: no version was taken into this library",
@@ -282,7 +286,7 @@ fn versions(
 ) -> anyhow::Result<Outcome> {
     let store = open_store(&args.store)?;
     let place = choice.open(console)?;
-    let taken = match place.folder().map(TakenBundle::of).transpose() {
+    let taken = match place.folder().map(TakenBundle::read).transpose() {
         Ok(taken) => taken.flatten(),
         Err(error) => {
             console.warn(&error, &error);
@@ -370,7 +374,7 @@ fn read_version(place: &LibraryPlace) -> Result<Option<TakenVersion>, BundleErro
     let Some(folder) = place.folder() else {
         return Ok(None);
     };
-    let Some(taken) = TakenBundle::of(folder)? else {
+    let Some(taken) = TakenBundle::read(folder)? else {
         return Ok(None);
     };
     Ok(Some(TakenVersion {
