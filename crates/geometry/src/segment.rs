@@ -13,8 +13,8 @@ pub struct Segment {
     pub to: Point3<f64>,
 }
 
-/// Minimum step along a segment beside a cloud, metres. It lets a distance d be overestimated by at most MIN_STEP_M² /
-/// 8d: 0.1 mm at 100 mm.
+/// Minimum step along a segment beside a cloud, metres. It lets a distance d be overestimated by at most
+/// `MIN_STEP_M`² / 8d: 0.1 mm at 100 mm.
 const MIN_STEP_M: f64 = 0.01;
 
 impl Segment {

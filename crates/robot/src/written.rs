@@ -133,7 +133,7 @@ fn read(text: &str) -> Result<WrittenPose, WrittenPoseError> {
     };
     // Brackets remain when the numbers are copied out of JSON.
     let bare = rest.trim().trim_start_matches('[').trim_end_matches(']');
-    let row = Row::of(bare);
+    let row = Row::new(bare);
     let numbers = row
         .cells()
         .flat_map(str::split_whitespace)

@@ -613,12 +613,12 @@ impl Answer {
             on_line: found.on_line.map(|_| OnLine::default()),
             ..Self::default()
         };
-        if let &Request::Part { index, .. } = request {
-            if index > answer.num_parts {
+        if let &Request::Part { number, .. } = request {
+            if number > answer.num_parts {
                 answer.verdict = VerdictCode::BadRequest;
-                answer.problem = Problem::no_such_part(index, answer.num_parts);
+                answer.problem = Problem::no_such_part(number, answer.num_parts);
             }
-            (answer.point, answer.points) = (index, answer.num_parts);
+            (answer.point, answer.points) = (number, answer.num_parts);
         }
         if let (Request::Status, Some(problem)) = (request, &at.camera.problem) {
             answer.problem = problem.clone();
@@ -635,7 +635,7 @@ impl Answer {
                     answer.points = num_points;
                     answer.take_point(point, found);
                 }
-                Request::Part { index: 0, .. } | Request::Servo(_) => {}
+                Request::Part { number: 0, .. } | Request::Servo(_) => {}
                 Request::Part { .. } => answer.pose = found.pose,
             }
             if answer.pose.is_some() {
@@ -780,9 +780,9 @@ mod tests {
         }
     }
 
-    const fn part(index: u32) -> Request {
+    const fn part(number: u32) -> Request {
         Request::Part {
-            index,
+            number,
             sequence: None,
         }
     }

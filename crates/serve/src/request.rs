@@ -29,7 +29,7 @@ pub enum Request {
     /// Send a part of the frame of an inspection, as a trigger sends the first one.
     Part {
         /// The part's number in the frame from 1, or 0 for the number of parts.
-        index: u32,
+        number: u32,
         /// The sequence number of any part of the frame; `None` for that of the client's own last trigger.
         sequence: Option<u32>,
     },
@@ -134,9 +134,9 @@ impl Request {
     }
 
     /// A request for a part of a frame; the sequence number 0 stands for the client's own last trigger.
-    pub fn part(index: u32, sequence: u32) -> Self {
+    pub fn part(number: u32, sequence: u32) -> Self {
         Self::Part {
-            index,
+            number,
             sequence: (sequence > 0).then_some(sequence),
         }
     }
@@ -190,8 +190,8 @@ impl Request {
             (_, []) => Some(self.clone()),
             (Self::Path { .. }, [point]) => Some(Self::path(*point, 0)),
             (Self::Path { .. }, [point, sequence]) => Some(Self::path(*point, *sequence)),
-            (Self::Part { .. }, [index]) => Some(Self::part(*index, 0)),
-            (Self::Part { .. }, [index, sequence]) => Some(Self::part(*index, *sequence)),
+            (Self::Part { .. }, [number]) => Some(Self::part(*number, 0)),
+            (Self::Part { .. }, [number, sequence]) => Some(Self::part(*number, *sequence)),
             _ => None,
         }
     }
@@ -203,10 +203,7 @@ impl Request {
                 point: number,
                 sequence,
             }
-            | Self::Part {
-                index: number,
-                sequence,
-            } => vec![number, sequence.unwrap_or(0)],
+            | Self::Part { number, sequence } => vec![number, sequence.unwrap_or(0)],
             Self::Trigger { ref expected, .. } => expected.iter().map(|one| one.part).collect(),
             Self::Servo(servo) => vec![servo.part],
             Self::Status | Self::Last => Vec::new(),

@@ -588,7 +588,7 @@ pub(super) fn answer_to(
     match inspected {
         Ok((inspected, index)) => {
             let index = match request {
-                Request::Part { place, .. } => place.saturating_sub(1) as usize,
+                Request::Part { number, .. } => number.saturating_sub(1) as usize,
                 _ => index,
             };
             Answer::of(&request, &inspected, index, &at)

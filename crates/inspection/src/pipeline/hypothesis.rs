@@ -30,13 +30,13 @@ enum Hypothesis {
     OneOfSeveral,
 }
 
-/// In the order in which they are tried, until one is accepted.
+/// In the order in which they are tried, until one is accepted: where several parts may hang, surfaces that touch are common.
 const HYPOTHESES: [Hypothesis; 5] = [
     Hypothesis::OtherSurface,
+    Hypothesis::OneOfSeveral,
     Hypothesis::MirrorImage,
     Hypothesis::Piece,
     Hypothesis::PartOnStand,
-    Hypothesis::OneOfSeveral,
 ];
 
 /// Where a smaller share of a surface lies off the best reference, it is one part that is not accepted for another reason.

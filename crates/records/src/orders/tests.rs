@@ -271,7 +271,7 @@ fn a_damaged_table_is_an_error_or_a_table_and_never_expects_nothing() {
             continue;
         };
         num_read += 1;
-        for rows in orders.orders.values() {
+        for rows in orders.rows.values() {
             assert!(
                 rows.values()
                     .all(|row| (1..=MAX_PARTS).contains(&row.parts.len()))
