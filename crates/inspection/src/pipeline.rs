@@ -454,8 +454,7 @@ impl Inspection {
     pub fn touches_edge(&self) -> bool {
         // Of 86 accepted simulated frames, all 39 of whole parts had 0, and 43 of the 47 others had 1 % or more.
         const EDGE_MIN_OUTSIDE: f64 = 0.005;
-        let pose = self.pose.as_ref().and_then(|pose| pose.as_ref().ok());
-        let accepted = pose.filter(|_| self.verdict.is_accepted());
+        let accepted = self.found_pose().filter(|_| self.verdict.is_accepted());
         if let Some(sight) = accepted.and_then(|pose| pose.fit.sight) {
             return sight.outside >= EDGE_MIN_OUTSIDE;
         }

@@ -388,7 +388,7 @@ impl FrameParts {
         iter::once(&mut self.first).chain(&mut self.others)
     }
 
-    /// The one at this place, counted from 0.
+    /// The one of this index.
     pub(super) fn get(&self, index: usize) -> Option<&Found> {
         self.iter().nth(index)
     }

@@ -49,7 +49,7 @@ impl Inspections {
         self.kept.back().map_or_else(none, Arc::clone)
     }
 
-    /// The frame with the part of this number, if it is still kept, and the part's place in it, from 0.
+    /// The frame with the part of this number, if it is still kept, and the part's index in it.
     pub(super) fn find(&self, sequence: u32) -> Option<(Arc<Inspected>, usize)> {
         let mut newest_first = self.kept.iter().rev();
         newest_first.find_map(|inspected| {

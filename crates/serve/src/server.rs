@@ -601,7 +601,7 @@ pub(super) fn answer_to(
 }
 
 /// The inspection whose path or parts a client gets: its own, or the one that it names. Never the last one of any other client.
-/// Also returns the place of the part in its frame, from 0.
+/// Also returns the index of the part in its frame.
 pub(super) fn inspection_of(
     sequence: Option<u32>,
     own: Option<&Arc<Inspected>>,

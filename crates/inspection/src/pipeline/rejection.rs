@@ -323,6 +323,16 @@ pub enum Unrecognisable {
 }
 
 impl Rejection {
+    /// The part of which it is the mirror image, if it is one.
+    pub(super) fn image_of(&self) -> Option<&str> {
+        match self {
+            Self::Mirrored { part, .. }
+            | Self::MirroredImage { part, .. }
+            | Self::OtherHalf { part, .. } => Some(part),
+            _ => None,
+        }
+    }
+
     /// True if only the rack speaks against the part.
     pub fn is_by_rack(&self) -> bool {
         matches!(

@@ -82,16 +82,10 @@ impl Verdict {
     /// part.
     pub fn guess(&self) -> Option<&str> {
         match self {
-            Self::Part {
-                rejected:
-                    Some(
-                        Rejection::Mirrored { part, .. }
-                        | Rejection::MirroredImage { part, .. }
-                        | Rejection::OtherHalf { part, .. },
-                    ),
-                ..
+            Self::Part { part, rejected, .. } => {
+                let image_of = rejected.as_ref().and_then(Rejection::image_of);
+                Some(image_of.unwrap_or(part))
             }
-            | Self::Part { part, .. } => Some(part),
             Self::NoPart(_) => None,
         }
     }
@@ -147,14 +141,7 @@ impl Verdict {
 
     /// True if it fits an enrolled part only as its mirror image.
     pub fn is_mirrored(&self) -> bool {
-        matches!(
-            self.rejected(),
-            Some(
-                Rejection::Mirrored { .. }
-                    | Rejection::MirroredImage { .. }
-                    | Rejection::OtherHalf { .. }
-            )
-        )
+        self.rejected().and_then(Rejection::image_of).is_some()
     }
 
     /// True if it resembles an enrolled part: another model or make of it, or its mirror image.

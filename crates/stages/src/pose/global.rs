@@ -118,12 +118,11 @@ pub(super) fn search(
     let mut finished = Vec::new();
     let mut outline_error = OUTLINE_ERROR_OF_VIEW_M;
     if let Some(start) = start {
-        finished = search.finish(search.successive_halving([start])?)?;
+        finished = search.successive_halving([start], &RACE)?;
     } else {
         let near_at_hand = || std::iter::once(no_turn).chain(along_axes(axes.0, axes.1));
         if have_same_shape(axes.0, axes.1) {
-            let near = search.halved(near_at_hand(), &RACE[2..])?;
-            finished = search.finish(near)?;
+            finished = search.successive_halving(near_at_hand(), &RACE[2..])?;
             let best = finished.first();
             let overlap = best.map_or(0.0, |best| search.overlap(best));
             if overlap < CONVINCING {
@@ -134,9 +133,9 @@ pub(super) fn search(
         }
         if finished.is_empty() {
             let starts = near_at_hand().chain(all_round(axes.0, axes.1));
-            finished = search.finish(search.successive_halving(starts)?)?;
+            finished = search.successive_halving(starts, &RACE)?;
             let elsewhere = search.put_elsewhere(&finished);
-            finished.extend(search.finish(search.successive_halving(elsewhere)?)?);
+            finished.extend(search.successive_halving(elsewhere, &RACE)?);
             finished = search.distinct(finished);
         } else {
             outline_error = OUTLINE_ERROR_OF_WHOLE_M;
@@ -188,16 +187,9 @@ impl<'a> GlobalSearch<'a> {
         }
     }
 
-    /// Refines all starts on the coarse likeness, fewer and fewer of them; the cheapest of different poses first.
+    /// Refines the starts on the coarse likeness by these rounds of [`RACE`], fewer and fewer of them, and the best few on the
+    /// fine one; the cheapest of different poses first. A start along the axes needs the last rounds only.
     fn successive_halving(
-        &self,
-        starts: impl IntoIterator<Item = RigidTransform>,
-    ) -> Result<Vec<PoseTrial>, PoseError> {
-        self.halved(starts, &RACE)
-    }
-
-    /// As [`Self::successive_halving`], by some of the rounds: a start along the axes needs the last ones only.
-    fn halved(
         &self,
         starts: impl IntoIterator<Item = RigidTransform>,
         rounds: &[Round],
@@ -219,7 +211,7 @@ impl<'a> GlobalSearch<'a> {
             trials = self.distinct(trials);
             trials.truncate(round.num_kept);
         }
-        Ok(trials)
+        self.finish(trials)
     }
 
     /// Refines the best few on the fine likeness, down to its spacing.

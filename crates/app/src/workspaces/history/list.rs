@@ -99,7 +99,7 @@ impl List {
     fn offset_to(&mut self, history: &HistoryState, height: f32) -> Option<f32> {
         let selected = (history.listed(), history.num_reselected);
         let index = history.index_of_listed();
-        // The place of an old row is known once its inspection is fetched.
+        // The index of an old row is known once its inspection is fetched.
         if selected == self.selected || selected.0.is_some() && index.is_none() {
             return None;
         }

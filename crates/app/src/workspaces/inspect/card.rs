@@ -60,7 +60,7 @@ pub(super) fn ui(
     }
     let inspection = &inspected.inspection;
     // Without the part's name, the figures of its pose are of no use.
-    let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
+    let pose = inspection.found_pose();
     let pose = pose.filter(|_| inspection.verdict.is_named());
     // Keep the buttons visible, however low the window.
     let pose_to_copy = pose.filter(|_| inspection.verdict.is_accepted());

@@ -31,7 +31,7 @@ const LOW: f32 = 560.0;
 /// Above, below and beside the text of a row, logical pixels.
 const MARGIN: f32 = 5.0;
 
-/// Name of a part of several, as its place in the list.
+/// Name of a part of several, by its number in the list.
 pub(super) fn numbered(index: usize, title: &str) -> String {
     format!("{} · {title}", index + 1)
 }
