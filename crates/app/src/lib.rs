@@ -1,7 +1,7 @@
 //! The window: five-second answers for the operator, every step for the engineer.
 //!
 //! ```text
-//! a frame   Workspace::update (tasks, dialogs) ─► Workspace::ui ─► Message ─► Window ─► Event ─► every workspace
+//! a frame   Workspace::update (tasks, dialogs) ─► Workspace::ui ─► Action ─► Window ─► Event ─► every workspace
 //! a task    Task::start ─► a thread with its TaskContext ─► Task::poll ─► the state of the workspace that started it
 //! ```
 //!

@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use super::{
+    action::Action,
     file_dialog::{DialogLock, FileDialog},
-    message::Message,
     notice::Notice,
     session::Session,
 };
@@ -29,33 +29,33 @@ pub struct ShellContext<'a> {
     pub session: &'a Session,
     /// Data shared by tasks.
     pub services: &'a Services,
-    messages: &'a mut Vec<Message>,
+    sent: &'a mut Vec<Action>,
 }
 
 impl<'a> ShellContext<'a> {
-    /// Makes a context; sent messages are added to `messages`.
+    /// Makes a context; sent actions are added to `sent`.
     pub fn new(
         egui: &'a egui::Context,
         session: &'a Session,
         services: &'a Services,
-        messages: &'a mut Vec<Message>,
+        sent: &'a mut Vec<Action>,
     ) -> Self {
         Self {
             egui,
             session,
             services,
-            messages,
+            sent,
         }
     }
 
-    /// Sends a request to the shell, which carries it out before the next frame.
-    pub fn send(&mut self, message: Message) {
-        self.messages.push(message);
+    /// Sends an action to the shell, which carries it out before the next frame.
+    pub fn send(&mut self, action: Action) {
+        self.sent.push(action);
     }
 
     /// Shows a notice.
     pub fn notify(&mut self, notice: impl Into<Notice>) {
-        self.send(Message::Notify(notice.into()));
+        self.send(Action::Notify(notice.into()));
     }
 
     /// Shows the result of a task, which describes what was written, or its error.
@@ -87,25 +87,20 @@ pub struct TestShell {
     pub egui: egui::Context,
     pub session: Session,
     pub services: Services,
-    /// Messages sent so far.
-    pub messages: Vec<Message>,
+    /// Actions sent so far.
+    pub sent: Vec<Action>,
 }
 
 #[cfg(any(test, feature = "fixtures"))]
 impl TestShell {
     pub fn context(&mut self) -> ShellContext<'_> {
-        ShellContext::new(
-            &self.egui,
-            &self.session,
-            &self.services,
-            &mut self.messages,
-        )
+        ShellContext::new(&self.egui, &self.session, &self.services, &mut self.sent)
     }
 
     /// Texts of the notices that were sent.
     pub fn notices(&self) -> Vec<&str> {
-        let notices = self.messages.iter().filter_map(|message| match message {
-            Message::Notify(notice) => Some(notice.what.as_str()),
+        let notices = self.sent.iter().filter_map(|action| match action {
+            Action::Notify(notice) => Some(notice.what.as_str()),
             _ => None,
         });
         notices.collect()

@@ -1,4 +1,4 @@
-//! The window around its workspaces: the session that they share, messages and notices, and what stands around them.
+//! The window around its workspaces: the session that they share, actions and notices, and what stands around them.
 //!
 //! - [`frame`]: the bars above, below and beside the work, the notices, the keys, and the question before the window closes.
 //! - [`source`]: takes scenes from the source, once or continuously, and inspects them.
@@ -21,7 +21,6 @@ pub mod file_dialog;
 pub mod frame;
 pub mod inspection;
 pub mod language;
-pub mod message;
 pub mod notice;
 pub mod path_entry;
 pub mod rack;

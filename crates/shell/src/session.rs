@@ -66,7 +66,7 @@ pub struct Session {
     pub rack: RackInUse,
     /// The window in which the rack is edited, while it is open: every part of a frame is found, so that each can get a place.
     pub rack_editor: Option<RackEditor>,
-    /// The robot frame, with the camera's pose in the robot's base, if the cell is calibrated; see [`Self::use_robot`].
+    /// The robot frame, with the camera's pose in the robot's base, if the cell is calibrated.
     pub robot: Option<Arc<RobotFrame>>,
     /// Whether and where robots are answered.
     pub answering: AnswerSetup,
@@ -115,12 +115,6 @@ impl Session {
             return Arc::clone(&self.recipe);
         }
         Arc::new(self.recipe.in_rack(rack.clone()).expecting(expected))
-    }
-
-    /// Uses this frame of the robot from now on.
-    pub fn use_robot(&mut self, robot: Option<Arc<RobotFrame>>) {
-        self.robot = robot;
-        self.rack.follow(self.robot.as_deref());
     }
 
     /// Makes a job to inspect something with the recipe and the calibration in use, before this rack, in which these parts are

@@ -5,8 +5,8 @@ use std::{any::Any, path::Path};
 use egui::{Rect, Ui};
 
 use super::{
+    action::Event,
     context::ShellContext,
-    message::Event,
     session::{Session, WorkspaceKind},
 };
 use crate::inspection::source::SceneOrScan;

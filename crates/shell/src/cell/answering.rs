@@ -15,8 +15,8 @@ use std::{
 use self::work::{AnswerInputs, AnswerRequest, answer};
 pub use self::work::{AnsweringStatus, LastAnswer};
 use crate::{
+    action::Action,
     context::ShellContext,
-    message::Message,
     notice::{Notice, NoticeTopic},
     session::Session,
 };
@@ -173,7 +173,7 @@ impl Answering {
     /// Forgets the failure and removes its notice.
     fn forget_failure(&mut self, cx: &mut ShellContext<'_>) {
         if self.failed.take().is_some() {
-            cx.send(Message::RemoveNotices(NoticeTopic::Answering));
+            cx.send(Action::RemoveNotices(NoticeTopic::Answering));
         }
     }
 

@@ -10,12 +10,12 @@ use std::{
 use jiff::{Timestamp, tz::TimeZone};
 
 use crate::{
+    action::Action,
     context::ShellContext,
     inspection::{
         camera::Camera,
         source::{Captured, Origin, SceneError, SceneSource},
     },
-    message::Message,
     notice::Notice,
     session::{Session, Source, UserRole},
 };
@@ -222,7 +222,7 @@ impl CellChecks {
         if self.warning != warning
             && let Some(former) = self.warning.take()
         {
-            cx.send(Message::Retract(former));
+            cx.send(Action::Retract(former));
         }
         if let (UserRole::Operator, Some(warning)) = (cx.session.role, warning) {
             cx.notify(warning.clone());

@@ -9,8 +9,8 @@ use super::{
     work::{self, CellInUse, RobotResult},
 };
 use crate::{
-    context::ShellContext, file_dialog::FileDialog, inspection::source::file_name,
-    message::Message, notice::Notice, session::RememberedCell,
+    action::Action, context::ShellContext, file_dialog::FileDialog, inspection::source::file_name,
+    notice::Notice, session::RememberedCell,
 };
 use robot::{
     calibration::{CalibrationFit, CameraPlace, CellCalibration, Origin},
@@ -144,7 +144,7 @@ impl RobotCell {
             RobotAction::Confirm => self.confirm(),
             RobotAction::Forget => {
                 self.in_use = None;
-                cx.send(Message::UseCalibration(RememberedCell::Forgotten, None));
+                cx.send(Action::UseCalibration(RememberedCell::Forgotten, None));
                 let what = text!("robot-forgotten");
                 cx.notify(Notice::done(what));
             }
@@ -154,7 +154,7 @@ impl RobotCell {
                     dialog.problem = started.err();
                 }
             }
-            RobotAction::Answer(setup) => cx.send(Message::UseAnswering(setup)),
+            RobotAction::Answer(setup) => cx.send(Action::UseAnswering(setup)),
         }
     }
 
@@ -318,7 +318,7 @@ impl RobotCell {
                 } else {
                     RememberedCell::File(in_use.path.clone())
                 };
-                cx.send(Message::UseCalibration(cell, in_use.frame()));
+                cx.send(Action::UseCalibration(cell, in_use.frame()));
                 let is_edited = in_use.is_edited;
                 self.in_use = Some(in_use);
                 match &mut self.dialog {
@@ -389,8 +389,8 @@ mod tests {
 
         /// Applies the calibrations that were sent.
         fn deliver(&mut self) {
-            for message in std::mem::take(&mut self.shell.messages) {
-                if let Message::UseCalibration(cell, robot) = message {
+            for message in std::mem::take(&mut self.shell.sent) {
+                if let Action::UseCalibration(cell, robot) = message {
                     self.shell.session.cell = cell;
                     self.shell.session.robot = robot;
                 }
@@ -489,10 +489,10 @@ mod tests {
             .apply(RobotAction::Load(path.clone()), &mut bench.shell.context());
         assert!(bench.robot.task.run_waiting());
         bench.robot.update(&mut bench.shell.context());
-        let notified = bench.shell.messages.iter().any(
-            |message| matches!(message, Message::Notify(notice) if notice.what == edited().what),
+        let notified = bench.shell.sent.iter().any(
+            |message| matches!(message, Action::Notify(notice) if notice.what == edited().what),
         );
-        assert!(notified, "{:?}", bench.shell.messages);
+        assert!(notified, "{:?}", bench.shell.sent);
         bench.deliver();
         assert!(bench.shell.session.robot.is_none() && bench.robot.in_use.is_some());
         bench.apply(RobotAction::Toggle);

@@ -7,8 +7,7 @@ use egui::{
 };
 
 use crate::{
-    action::{Action, Effect},
-    message::Event,
+    action::{Action, Event},
     notice::{Notice, NoticeKind},
     state::State,
 };
@@ -154,7 +153,7 @@ fn line(ui: &mut Ui, index: usize, notice: &Notice, with_all: bool, actions: &mu
             if let NoticeKind::Undoable(by) = notice.kind
                 && text_button(ui, &text!("shell-undo")).clicked()
             {
-                actions.push(Action::Make(Effect::Tell(Event::Undo(by))));
+                actions.push(Action::Tell(Event::Undo(by)));
             }
             let words = Layout::left_to_right(Align::Center).with_main_wrap(true);
             ui.with_layout(words, |ui| {

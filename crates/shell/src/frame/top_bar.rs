@@ -3,7 +3,7 @@
 use egui::{Align, Button, Color32, Frame, Layout, Margin, Panel, RichText, Ui, Vec2};
 
 use crate::{
-    action::{Action, DialogRequest, Effect},
+    action::{Action, DialogRequest},
     cell::{self, RobotAction, RobotCell},
     inspection::{figures::StagePanel, library_cache::LibraryView, source::file_name},
     session::{Session, WorkspaceKind},
@@ -171,7 +171,7 @@ fn robot_button(ui: &mut Ui, state: &State, robot: &RobotCell, actions: &mut Vec
         (None, None) => text!("shell-not-calibrated"),
     };
     if labelled(ui, button, &name).on_hover_text(says).clicked() {
-        actions.push(Action::Make(Effect::Robot(RobotAction::Toggle)));
+        actions.push(Action::Robot(RobotAction::Toggle));
     }
 }
 

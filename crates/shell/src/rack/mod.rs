@@ -11,7 +11,6 @@ pub use self::{
     window::{box_numbers, window},
 };
 use crate::{
-    action::Effect,
     inspection::inspected::Inspected,
     notice::Notice,
     session::Session,
@@ -63,7 +62,7 @@ pub fn update(state: &mut State) {
 }
 
 /// Carries out an action on the rack.
-pub fn apply(state: &mut State, action: RackAction) -> Option<Effect> {
+pub fn apply(state: &mut State, action: RackAction) {
     if let RackAction::Toggle = action {
         if state.session.rack_editor.is_some() {
             close(state);
@@ -71,7 +70,7 @@ pub fn apply(state: &mut State, action: RackAction) -> Option<Effect> {
             state.session.rack_editor = Some(RackEditor::of(&state.session));
             inspect_present(state);
         }
-        return None;
+        return;
     }
     if let RackAction::Open(path) = action {
         state.rack_reading.start(text!("rack-reading"), |_| {
@@ -79,11 +78,10 @@ pub fn apply(state: &mut State, action: RackAction) -> Option<Effect> {
             let file = file.map_err(|error| UserError::from(what_and_advice(&error)))?;
             Ok((path, Box::new(file)))
         });
-        return None;
+        return;
     }
     if let RackAction::Saved(saved) = action {
-        tell_saved(state, saved);
-        return None;
+        return tell_saved(state, saved);
     }
     // A file may be chosen after the window was closed.
     let open = state.session.rack_editor.clone();
@@ -156,7 +154,6 @@ pub fn apply(state: &mut State, action: RackAction) -> Option<Effect> {
         Err(error) => editor.problem = Some(error),
     }
     state.session.rack_editor = Some(editor);
-    None
 }
 
 /// Says where the rack was written, or why it was not.

@@ -18,7 +18,7 @@ pub use self::{
 };
 pub use super::session::UserRole;
 use super::{
-    action::{Action, Effect},
+    action::Action,
     notice::{Notice, NoticeTopic},
     session::WorkspaceKind,
     state::State,
@@ -26,26 +26,20 @@ use super::{
 use crate::{apply::apply as apply_any, rack, source::live, state::notify};
 use ui::language::text;
 
-/// Returns the action, unless it needs the engineer's view, which is then asked for first.
+/// Returns the action, unless it needs the engineer's view: then asks for that, and carries the action out once it is granted.
 pub(crate) fn permitted(state: &mut State, action: Action) -> Option<Action> {
     // The window starts with the source of the former session.
     let is_free = state.session.role == UserRole::Engineer || state.inspector.is_start;
     if is_free || !needs_engineer(&action, state.roles.pin.is_some()) {
         return Some(action);
     }
-    ask_engineer(state, action);
+    let question = RoleQuestion::MayI(Some(Box::new(action)));
+    state.roles.asked = Some(OpenQuestion::about(question));
     None
 }
 
-/// Asks for the engineer's view; once granted, carries out `then`.
-pub fn ask_engineer(state: &mut State, then: Action) {
-    state.roles.asked = Some(OpenQuestion::about(RoleQuestion::MayI(Some(Box::new(
-        then,
-    )))));
-}
-
 /// Carries out an action.
-pub fn apply(state: &mut State, action: RoleAction) -> Option<Effect> {
+pub fn apply(state: &mut State, action: RoleAction) -> Option<Action> {
     let role = state.session.role;
     let own = &mut state.roles;
     match action {
@@ -95,7 +89,7 @@ fn switch_to_operator(state: &mut State) {
 }
 
 /// Handles the confirmed digits.
-fn enter(state: &mut State) -> Option<Effect> {
+fn enter(state: &mut State) -> Option<Action> {
     let own = &mut state.roles;
     let OpenQuestion {
         question, digits, ..

@@ -2,7 +2,7 @@
 
 use super::{Action, RoleAction, WorkspaceKind};
 use crate::{
-    action::{DialogRequest, Effect},
+    action::DialogRequest,
     cell::{CheckAction, RobotAction},
     source::live::LiveAction,
     trace::orders::ExpectAction,
@@ -26,12 +26,10 @@ pub(crate) fn is_operators(workspace: WorkspaceKind) -> bool {
 /// Lists every action, so that each new one needs a decision.
 pub(super) fn needs_engineer(action: &Action, has_pin: bool) -> bool {
     match action {
-        Action::GoTo(workspace) | Action::Make(Effect::Press(workspace, _)) => {
+        Action::GoTo(workspace) | Action::Press(workspace, _) => {
             !is_operators(*workspace)
         }
-        Action::Ask(ask)
-        | Action::Chosen(ask, _)
-        | Action::Make(Effect::ShowDialog(ask)) => asks_for_engineer(*ask, has_pin),
+        Action::Ask(ask) | Action::Chosen(ask, _) => asks_for_engineer(*ask, has_pin),
         Action::Role(action) => matches!(
             action,
             RoleAction::SetPin | RoleAction::RemovePin | RoleAction::LockAfter(_)
@@ -40,8 +38,8 @@ pub(super) fn needs_engineer(action: &Action, has_pin: bool) -> bool {
         Action::Live(LiveAction::Use(_) | LiveAction::SetUp(Some(_)))
         | Action::UseCell(_)
         | Action::Open(_)
-        | Action::Make(Effect::Take(..) | Effect::TakeFile(_)) => has_pin,
-        Action::Make(Effect::Robot(action)) => !matches!(
+        | Action::Take(..) | Action::TakeFile(_) => has_pin,
+        Action::Robot(action) => !matches!(
             action,
             RobotAction::Close | RobotAction::Check(CheckAction::Cancel)
         ),
@@ -51,6 +49,7 @@ pub(super) fn needs_engineer(action: &Action, has_pin: bool) -> bool {
         | Action::TakeEmptyCell
         | Action::ForgetEmptyCell
         | Action::UseFoundLibrary
+        | Action::EngineerIn(_)
         // Otherwise an order would not be compared with what hangs there.
         | Action::Expect(ExpectAction::CloseOrders)
         // Verdicts depend on the averaging of depth.
@@ -60,9 +59,24 @@ pub(super) fn needs_engineer(action: &Action, has_pin: bool) -> bool {
         | Action::Capture
         | Action::CancelInspection
         | Action::SelectPart(_)
-        | Action::Make(
-            Effect::CancelTask(_) | Effect::EngineerIn(_) | Effect::Tell(_) | Effect::Close,
-        )
+        | Action::CancelTask(_)
+        | Action::Tell(_)
+        | Action::Close
+        // What workspaces send: the operator's may, and the others' are the engineer's.
+        | Action::Retract(_)
+        | Action::RemoveNotices(_)
+        | Action::WithdrawUndo(_)
+        | Action::CopyText(_)
+        | Action::UseSource(_)
+        | Action::UseRecipe(_)
+        | Action::UseCalibration(..)
+        | Action::UseAnswering(_)
+        | Action::UseProgramSetup(_)
+        | Action::UseServoSettings(_)
+        | Action::LibraryChanged { .. }
+        | Action::Inspect { .. }
+        | Action::InspectShown { .. }
+        | Action::ShowPast(_)
         | Action::CloseTop
         | Action::SwitchUnits
         | Action::SwitchTheme

@@ -1,10 +1,9 @@
 use super::*;
 use crate::{
-    action::DialogRequest,
+    action::{DialogRequest, Event},
     apply::apply as apply_any,
     cell::{CheckAction, RobotAction},
     inspection::source::CellChoice,
-    message::Event,
     source::live::LiveAction,
 };
 use capture::{KinectSpec, SimulatedSpec, SourceSpec};
@@ -30,10 +29,10 @@ fn the_operators_view_changes_nothing_that_a_verdict_rests_on() {
     let mut state = State::default();
     apply(&mut state, RoleAction::Switch);
     let held_back = [
-        Action::Make(Effect::Robot(RobotAction::Forget)),
-        Action::Make(Effect::Robot(RobotAction::Check(CheckAction::TakeBaseline))),
-        Action::Make(Effect::Robot(RobotAction::Check(CheckAction::Check))),
-        Action::Make(Effect::Press(WorkspaceKind::Compare, 0)),
+        Action::Robot(RobotAction::Forget),
+        Action::Robot(RobotAction::Check(CheckAction::TakeBaseline)),
+        Action::Robot(RobotAction::Check(CheckAction::Check)),
+        Action::Press(WorkspaceKind::Compare, 0),
         Action::Ask(DialogRequest::Library),
         Action::Chosen(DialogRequest::Library, "other".into()),
         Action::TakeEmptyCell,
@@ -51,7 +50,7 @@ fn the_operators_view_changes_nothing_that_a_verdict_rests_on() {
     );
     apply_any(&mut state, Action::Capture);
     assert!(state.inspector.running().is_some());
-    assert!(apply_any(&mut state, Action::Make(Effect::Tell(Event::Export))).is_some());
+    assert!(apply_any(&mut state, Action::Tell(Event::Export)).is_some());
 }
 
 #[test]

@@ -4,8 +4,8 @@ use egui::{Context, RichText, Ui, WidgetInfo};
 
 use super::current_trace::{TraceEntry, names_part};
 use crate::{
+    action::Event,
     inspection::inspected::Inspected,
-    message::Event,
     notice::{Notice, NoticeTopic},
     session::Session,
 };

@@ -13,8 +13,8 @@ use super::{
 };
 use inspection::pipeline::Verdict;
 use shell::{
-    context::ShellContext, file_dialog::FileDialog, inspection::source::file_name,
-    message::Message, notice::Notice, session::Session,
+    action::Action, context::ShellContext, file_dialog::FileDialog, inspection::source::file_name,
+    notice::Notice, session::Session,
 };
 use ui::{
     language::text,
@@ -258,7 +258,7 @@ impl AlignState {
             AlignAction::CopyTable => {
                 let text = table::text(&self.table.rows, '\t');
                 cx.notify(Notice::done(text!("align-copied")));
-                cx.send(Message::CopyText(text));
+                cx.send(Action::CopyText(text));
             }
         }
     }

@@ -8,9 +8,9 @@ use records::{
     history::{HistoryBuffer, HistoryError},
 };
 use shell::{
+    action::Action,
     context::ShellContext,
     inspection::inspected::Inspected,
-    message::Message,
     notice::{Notice, NoticeTopic},
 };
 use ui::language::text;
@@ -39,7 +39,7 @@ impl CompareState {
                 text!("compare-keep-case-first"),
             ));
         };
-        cx.send(Message::RemoveNotices(NoticeTopic::Case));
+        cx.send(Action::RemoveNotices(NoticeTopic::Case));
         let about = CaseDescription {
             kept_at: geometry::clock::now(),
             remark: self.remark.trim().to_owned(),

@@ -16,7 +16,7 @@ use inspection::{
         Replace,
     },
 };
-use shell::{context::ShellContext, message::Message, notice::Notice, session::UserRole};
+use shell::{action::Action, context::ShellContext, notice::Notice, session::UserRole};
 use ui::{language::text, undo_stack::UndoDirection, user_error::UserError};
 
 impl CompareState {
@@ -250,7 +250,7 @@ impl CompareState {
         }
         self.tried = (tried_now != now).then(|| Arc::new(tried_now));
         if now.label != in_use.label {
-            cx.send(Message::UseRecipe(Arc::new(now)));
+            cx.send(Action::UseRecipe(Arc::new(now)));
         }
         let what = match done {
             RecipeDone::Listed => return,

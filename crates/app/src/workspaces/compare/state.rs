@@ -20,10 +20,10 @@ use inspection::{
 };
 use records::cases::{CaseError, CaseFolder, Cell, KeptCase, Truth};
 use shell::{
+    action::Action,
     context::ShellContext,
     file_dialog::FileDialog,
     inspection::folder_watch::FolderWatch,
-    message::Message,
     notice::{Notice, NoticeTopic},
     session::Shown,
 };
@@ -205,7 +205,7 @@ impl CompareState {
             }
             CompareAction::OpenCase(name) => self.open_case(&name, cx),
             CompareAction::SetTruth(truth) => {
-                cx.send(Message::RemoveNotices(NoticeTopic::Case));
+                cx.send(Action::RemoveNotices(NoticeTopic::Case));
                 self.set_truth(truth);
             }
             CompareAction::Against(part) => {
@@ -348,7 +348,7 @@ impl CompareState {
             cx.notify(problem.clone());
         }
         if !cases.list.is_empty() && before.is_none_or(|before| before.list.is_empty()) {
-            cx.send(Message::Retract(no_cases()));
+            cx.send(Action::Retract(no_cases()));
         }
         if let Front::Kept(front) = &self.front {
             let mut all = cases.list.iter();
@@ -424,7 +424,7 @@ impl CompareState {
     pub(super) fn say(&mut self, what: String, cx: &mut ShellContext<'_>) {
         let notice = Notice::done(what);
         if let Some(before) = self.last_notice.replace(notice.clone()) {
-            cx.send(Message::Retract(before));
+            cx.send(Action::Retract(before));
         }
         cx.notify(notice);
     }
@@ -461,7 +461,7 @@ impl CompareState {
             if is_other {
                 // A person wants to see what was captured or opened now.
                 self.front_scene();
-                cx.send(Message::RemoveNotices(NoticeTopic::Case));
+                cx.send(Action::RemoveNotices(NoticeTopic::Case));
             }
             self.due = self.due.max(StudyNeed::WhenFree);
         }
@@ -503,7 +503,7 @@ impl CompareState {
             ));
         };
         self.forget();
-        cx.send(Message::RemoveNotices(NoticeTopic::Case));
+        cx.send(Action::RemoveNotices(NoticeTopic::Case));
         self.truth = Some(case.meta.about.truth.clone());
         self.front = Front::Kept(Box::new(case));
         self.due = StudyNeed::Now;

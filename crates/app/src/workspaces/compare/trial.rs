@@ -8,7 +8,7 @@ use super::{
     state::{CompareState, Undo},
 };
 use inspection::pipeline::{NamedRecipe, Recipe, parameters::num_changed};
-use shell::{context::ShellContext, language::results::recipe_label, message::Message};
+use shell::{action::Action, context::ShellContext, language::results::recipe_label};
 use ui::{language::text, undo_stack::UndoDirection};
 
 impl CompareState {
@@ -76,8 +76,8 @@ impl CompareState {
         let label = recipe_label(&recipe.label);
         let text = text!("compare-recipe-used", recipe = label, count = num);
         self.say(text, cx);
-        cx.send(Message::UseRecipe(recipe));
-        cx.send(Message::InspectShown {
+        cx.send(Action::UseRecipe(recipe));
+        cx.send(Action::InspectShown {
             title: text!("compare-inspecting"),
         });
     }

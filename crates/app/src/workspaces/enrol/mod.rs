@@ -47,9 +47,9 @@ use self::{
 };
 use crate::shots::{ShotList, ShownShots, StripTab};
 use shell::{
+    action::Event,
     context::ShellContext,
     inspection::source::SceneOrScan,
-    message::Event,
     session::{Session, WorkspaceKind},
     workspace::Workspace,
 };

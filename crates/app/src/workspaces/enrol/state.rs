@@ -14,11 +14,10 @@ use super::{
 use crate::shots::{Asked, ShotsAction, ShotsFile, ShotsState};
 use inspection::library::PartName;
 use shell::{
-    action::{Action, DialogRequest},
+    action::{Action, DialogRequest, Event},
     context::ShellContext,
     file_dialog::FileDialog,
     inspection::{library_cache::LibraryView, scan_choice::ShotChoice},
-    message::{Event, Message},
     notice::{Notice, NoticeTopic},
     session::{Session, UserRole, WorkspaceKind},
 };
@@ -195,14 +194,14 @@ impl EnrolState {
     pub fn apply(&mut self, action: EnrolAction, cx: &mut ShellContext<'_>) {
         if cx.session.role == UserRole::Operator {
             self.held = Some(action);
-            cx.send(Message::AskEngineer);
+            cx.send(Action::EngineerIn(WorkspaceKind::Enrol));
             return;
         }
         let library = cx.session.library.as_deref();
         match action {
             EnrolAction::TakeShown => self.take_shown(cx),
             EnrolAction::SeeInspected => {
-                cx.send(Message::Act(Action::GoTo(WorkspaceKind::Inspect)));
+                cx.send(Action::GoTo(WorkspaceKind::Inspect));
             }
             EnrolAction::Correct(edit) => {
                 self.is_outline_new = matches!(edit, Edit::Outline(..));
@@ -277,7 +276,7 @@ impl EnrolState {
             EnrolAction::RemovePath(name) => {
                 self.change(LibraryChange::SetPath(name, None), DraftEffect::Stays, cx);
             }
-            EnrolAction::OpenScan => cx.send(Message::Act(Action::Ask(DialogRequest::Scan))),
+            EnrolAction::OpenScan => cx.send(Action::Ask(DialogRequest::Scan)),
             EnrolAction::Ask(file) => self.ask(file, cx),
             EnrolAction::Shots(ShotsAction::Ask(file)) => self.ask(EnrolFile::Scan(file), cx),
             EnrolAction::Chosen(EnrolFile::SprayPath, path) => {

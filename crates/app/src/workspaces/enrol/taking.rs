@@ -17,12 +17,12 @@ use super::{
 };
 use crate::shots::{Asked, ShotsAction, ShotsFile, source_of};
 use shell::{
+    action::Action,
     context::ShellContext,
     inspection::{
         scan_choice::ScanOrder,
         source::{Origin, SceneOrScan, SceneSource},
     },
-    message::Message,
     notice::{Notice, NoticeTopic},
 };
 use ui::{language::text, user_error::UserError};
@@ -110,7 +110,7 @@ impl EnrolState {
         selection: Arc<Selection>,
         cx: &mut ShellContext<'_>,
     ) {
-        cx.send(Message::RemoveNotices(NoticeTopic::Scene));
+        cx.send(Action::RemoveNotices(NoticeTopic::Scene));
         for warning in &subject.warnings {
             cx.notify(match &subject.origin {
                 Origin::File { path, .. } => Notice::of_file(path, warning),
@@ -154,7 +154,7 @@ impl EnrolState {
         if let Some(files) = &files
             && let Some(source) = source_of(files, &cx.session.source)
         {
-            cx.send(Message::UseSource(source));
+            cx.send(Action::UseSource(source));
         }
         self.shots.settle(files.as_ref(), None);
         self.job = DraftJob::Look;

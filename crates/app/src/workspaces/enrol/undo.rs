@@ -13,6 +13,7 @@ use super::{
 };
 use inspection::library::PartName;
 use shell::{
+    action::Action,
     context::ShellContext,
     inspection::{
         inspected::Inspected,
@@ -20,7 +21,6 @@ use shell::{
         scan_choice::{ScanOrder, ShotSet},
         source::{SceneOrScan, SceneSource},
     },
-    message::Message,
     notice::Notice,
     session::{Session, WorkspaceKind},
 };
@@ -245,8 +245,8 @@ impl EnrolState {
             (Some(_), None) => self.open = None,
             (None, _) => {}
         }
-        cx.send(Message::LibraryChanged { library, saved });
-        cx.send(Message::WithdrawUndo);
+        cx.send(Action::LibraryChanged { library, saved });
+        cx.send(Action::WithdrawUndo(WorkspaceKind::Enrol));
         cx.notify(notice);
         self.look(cx);
     }
@@ -334,7 +334,7 @@ impl EnrolState {
             return;
         }
         while let Some(step) = self.steps.from(way).pop() {
-            cx.send(Message::WithdrawUndo);
+            cx.send(Action::WithdrawUndo(WorkspaceKind::Enrol));
             match step {
                 UndoStep::Library(step) => return self.start_change(Some(way), step, cx),
                 UndoStep::Draft(other) => {
@@ -367,7 +367,7 @@ impl EnrolState {
         if let Some((oldest, _)) = scans.nth(MAX_SCANS) {
             done.drain(..=oldest);
         }
-        cx.send(Message::WithdrawUndo);
+        cx.send(Action::WithdrawUndo(WorkspaceKind::Enrol));
     }
 }
 

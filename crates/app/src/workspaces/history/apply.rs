@@ -11,10 +11,9 @@ use super::{
 };
 use records::history::{HistoryEvent, NewEntry, PruneResult, SetAside};
 use shell::{
-    action::Action,
+    action::{Action, Event},
     context::ShellContext,
     inspection::{inspected::Inspected, source::file_name},
-    message::{Event, Message},
     notice::Notice,
     session::{ReinspectionPurpose, UserRole, WorkspaceKind},
 };
@@ -25,7 +24,7 @@ impl HistoryState {
     pub fn apply(&mut self, action: HistoryAction, cx: &mut ShellContext<'_>) {
         if action.needs_engineer() && cx.session.role == UserRole::Operator {
             self.held = Some(action);
-            cx.send(Message::AskEngineer);
+            cx.send(Action::EngineerIn(WorkspaceKind::History));
             return;
         }
         match action {
@@ -142,7 +141,7 @@ impl HistoryState {
                 if is_in_front && self.runs.is_some() {
                     self.show_runs(false, cx);
                 } else if is_in_front && cx.session.role == UserRole::Operator {
-                    cx.send(Message::Act(Action::GoTo(WorkspaceKind::Inspect)));
+                    cx.send(Action::GoTo(WorkspaceKind::Inspect));
                 }
             }
             Event::PosesWanted(_) | Event::Export | Event::Undo(_) => {}

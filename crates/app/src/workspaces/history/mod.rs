@@ -32,9 +32,9 @@ use self::{details::Details, list::List};
 
 use records::history::{HistoryBuffer, Writer};
 use shell::{
+    action::Event,
     context::ShellContext,
     inspection::folder_watch::FolderWatch,
-    message::Event,
     session::{Session, WorkspaceKind},
     workspace::Workspace,
 };

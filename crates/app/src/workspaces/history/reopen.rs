@@ -16,7 +16,6 @@ use shell::{
         source::{HistoryFrame, Origin, SceneOrScan, SceneSource},
     },
     language::results::scene_title,
-    message::Message,
     notice::Notice,
     session::{ReinspectionPurpose, WorkspaceKind},
 };
@@ -26,7 +25,7 @@ impl HistoryState {
     /// Shows an inspection with every stage: from memory, or repeated with its own recipe.
     pub(super) fn open(&mut self, number: i64, cx: &mut ShellContext<'_>) {
         match self.whole(number) {
-            Some(inspected) => cx.send(Message::ShowPast(Arc::clone(inspected))),
+            Some(inspected) => cx.send(Action::ShowPast(Arc::clone(inspected))),
             None => self.reinspect(number, RemakeFor::Open, cx),
         }
     }
@@ -77,9 +76,9 @@ impl HistoryState {
             ));
         };
         if purpose == RemakeFor::Open {
-            cx.send(Message::Act(Action::GoTo(WorkspaceKind::Inspect)));
+            cx.send(Action::GoTo(WorkspaceKind::Inspect));
         }
-        cx.send(Message::Inspect {
+        cx.send(Action::Inspect {
             title,
             job: match source {
                 SceneOrScan::Scene(source) => InspectJob::Scene(InspectRequest { source, recipe }),

@@ -15,7 +15,7 @@ use super::{
 use crate::shots::summary;
 use inspection::pipeline::{Rejection, Unrecognisable, Verdict};
 use shell::{
-    action::{Action, Effect},
+    action::Action,
     cell::RobotAction,
     inspection::{inspected::Inspected, unit_system::UnitSystem},
     language::results::{recipe_label, traced},
@@ -137,7 +137,7 @@ fn next_step(
     headline: &Headline,
 ) -> Option<(String, InspectAction)> {
     let calibrate = || {
-        let open = Action::Make(Effect::Robot(RobotAction::Toggle));
+        let open = Action::Robot(RobotAction::Toggle);
         (text!("inspect-calibrate"), InspectAction::Act(open))
     };
     let enrol = || (text!("inspect-enrol-this"), InspectAction::Enrol);

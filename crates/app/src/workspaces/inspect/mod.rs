@@ -33,9 +33,9 @@ pub use self::{
 use crate::shots::{ShotList, ShotsAction, ShotsFile, ShownShots, StripTab};
 use capture::SourceSpec;
 use shell::{
+    action::Event,
     context::ShellContext,
     inspection::{fuse::FusedShots, inspected::Inspected},
-    message::Event,
     session::{Session, Shown, WorkspaceKind},
     workspace::Workspace,
 };

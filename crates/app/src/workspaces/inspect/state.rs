@@ -10,7 +10,7 @@ use super::{
 use crate::shots::{Asked, ShotsAction, ShotsFile, ShotsState, source_of};
 use records::history::Traceability;
 use shell::{
-    action::{Action, Effect},
+    action::{Action, Event},
     context::ShellContext,
     file_dialog::FileDialog,
     inspection::{
@@ -20,7 +20,6 @@ use shell::{
         report_files,
         scan_choice::{ScanOrder, ShotChoice},
     },
-    message::{Event, Message},
     notice::Notice,
     session::{ReinspectionPurpose, Session, Source, WorkspaceKind},
     source::live::LiveAction,
@@ -178,24 +177,24 @@ impl InspectState {
             InspectAction::Colour(colouring) => self.colouring = Some(colouring),
             InspectAction::Enlarge(panel) => self.enlarged = panel,
             InspectAction::Candidate(place) => self.candidate = place,
-            InspectAction::SelectPart(index) => cx.send(Message::Act(Action::SelectPart(index))),
+            InspectAction::SelectPart(index) => cx.send(Action::SelectPart(index)),
             InspectAction::NextPart(by) => {
                 if let Some(shown) = &cx.session.shown {
                     let index = shown.selected() as isize + by;
                     let index = index.rem_euclid(shown.parts.len() as isize);
-                    cx.send(Message::Act(Action::SelectPart(index as usize)));
+                    cx.send(Action::SelectPart(index as usize));
                 }
             }
             InspectAction::UseConvention(convention) => {
-                cx.send(Message::Act(Action::UseConvention(convention)));
+                cx.send(Action::UseConvention(convention));
             }
             InspectAction::CopyPose => copy_pose(cx),
-            InspectAction::Compare => cx.send(Message::Act(Action::GoTo(WorkspaceKind::Compare))),
+            InspectAction::Compare => cx.send(Action::GoTo(WorkspaceKind::Compare)),
             InspectAction::Enrol => enrol_shown(cx),
             InspectAction::ToggleRecording => {
-                cx.send(Message::Act(Action::Live(LiveAction::ToggleRecording)));
+                cx.send(Action::Live(LiveAction::ToggleRecording));
             }
-            InspectAction::Act(action) => cx.send(Message::Act(action)),
+            InspectAction::Act(action) => cx.send(action),
             InspectAction::Shots(action) => self.change_shots(action, cx),
             InspectAction::Ask(file) => {
                 let lock = &cx.services.dialogs;
@@ -241,9 +240,9 @@ impl InspectState {
                         None => (ReinspectionPurpose::New, None, Traceability::default()),
                     };
                 if let ScanOrder::Open(files) = &order {
-                    cx.send(Message::UseSource(Source::Scan(files.clone())));
+                    cx.send(Action::UseSource(Source::Scan(files.clone())));
                 }
-                cx.send(Message::Inspect {
+                cx.send(Action::Inspect {
                     title: order.title(),
                     job: InspectJob::Scan(cx.session.scan_request(order)),
                     purpose,
@@ -296,7 +295,7 @@ impl InspectState {
         if let Some(files) = &files
             && let Some(source) = source_of(files, &cx.session.source)
         {
-            cx.send(Message::UseSource(source));
+            cx.send(Action::UseSource(source));
         }
         self.shots.settle(files.as_ref(), former);
     }
@@ -432,15 +431,15 @@ fn copy_pose(cx: &mut ShellContext<'_>) {
         convention = title
     );
     cx.notify(Notice::done(what));
-    cx.send(Message::CopyText(clipboard_text(&numbered)));
+    cx.send(Action::CopyText(clipboard_text(&numbered)));
 }
 
 /// Makes the scene in front the draft of Enrol, and goes there.
 fn enrol_shown(cx: &mut ShellContext<'_>) {
     if let Some(shown) = &cx.session.shown {
-        let take = Effect::Take(shown.inspected.again(), text!("enrol-taking-scene"));
-        cx.send(Message::Act(Action::GoTo(WorkspaceKind::Enrol)));
-        cx.send(Message::Act(Action::Make(take)));
+        let take = Action::Take(shown.inspected.again(), text!("enrol-taking-scene"));
+        cx.send(Action::GoTo(WorkspaceKind::Enrol));
+        cx.send(take);
     }
 }
 
@@ -517,10 +516,10 @@ mod tests {
             ..scan
         };
         assert!(matches!(
-            &shell.messages[..],
+            &shell.sent[..],
             [
-                Message::UseSource(Source::Scan(files)),
-                Message::Inspect {
+                Action::UseSource(Source::Scan(files)),
+                Action::Inspect {
                     job: InspectJob::Scan(request),
                     purpose: ReinspectionPurpose::New,
                     hung: None,
@@ -536,20 +535,20 @@ mod tests {
         let mut shell = TestShell::default();
         let mut state = InspectState::new(&TaskRunner::without_threads());
         state.apply(InspectAction::CopyPose, &mut shell.context());
-        assert!(shell.messages.is_empty(), "nothing is shown");
+        assert!(shell.sent.is_empty(), "nothing is shown");
         let found = inspected_cell(CellChoice::InTurn, 1);
         shell.session.shown = Some(Shown::new(1, Arc::new(found)));
         state.apply(InspectAction::CopyPose, &mut shell.context());
         assert_eq!(shell.notices(), ["Not calibrated: the robot gets no pose"]);
-        shell.messages.clear();
+        shell.sent.clear();
         shell.session.robot = Some(Arc::new(RobotFrame {
             robot_from_camera: RigidTransform::identity(),
             name: "cell 1".into(),
         }));
         state.apply(InspectAction::CopyPose, &mut shell.context());
         assert!(matches!(
-            &shell.messages[..],
-            [Message::Notify(_), Message::CopyText(_)]
+            &shell.sent[..],
+            [Action::Notify(_), Action::CopyText(_)]
         ));
     }
 }

@@ -7,8 +7,8 @@ use inspection::{
 };
 use robot::paint::{Coat, built_in_coat};
 use shell::{
+    action::Action,
     context::ShellContext,
-    message::Message,
     notice::{Notice, NoticeTopic},
 };
 use ui::{language::text, parameter_control::ParameterChange, user_error::UserError};
@@ -95,7 +95,7 @@ impl PaintState {
         };
         match folder.save(&coat, replace) {
             Ok(()) => {
-                cx.send(Message::RemoveNotices(NoticeTopic::CoatName));
+                cx.send(Action::RemoveNotices(NoticeTopic::CoatName));
                 let name = coat.name.to_string();
                 cx.notify(Notice::done(text!("paint-saved-coat", coat = name)));
                 self.naming = None;

@@ -9,10 +9,10 @@ use inspection::{
 };
 use robot::paint::{Coat, KeepOut, PathEdit};
 use shell::{
+    action::Action,
     cell::ProgramSetup,
     context::ShellContext,
     inspection::library_cache::LibraryView,
-    message::Message,
     notice::{Notice, NoticeTopic},
     session::Session,
 };
@@ -267,10 +267,10 @@ fn drawn_dropped(part: &PartName, session: &Session, advice: String) -> Notice {
 
 /// Sends other settings for robot programs, and removes the notices of why the former ones gave none.
 fn use_setup(setup: ProgramSetup, cx: &mut ShellContext<'_>) {
-    cx.send(Message::RemoveNotices(NoticeTopic::Program));
+    cx.send(Action::RemoveNotices(NoticeTopic::Program));
     // Inspect shows it, too.
     if let Some(error) = cx.session.program.nozzle_error() {
-        cx.send(Message::Retract(error.into()));
+        cx.send(Action::Retract(error.into()));
     }
-    cx.send(Message::UseProgramSetup(setup));
+    cx.send(Action::UseProgramSetup(setup));
 }

@@ -39,8 +39,8 @@ pub use self::{
     work::Planned,
 };
 use shell::{
+    action::Event,
     context::ShellContext,
-    message::Event,
     session::{Session, WorkspaceKind},
     workspace::Workspace,
 };

@@ -15,11 +15,11 @@ use inspection::{
 };
 use robot::paint::{BUILT_IN_COATS, CoatFolder, built_in_coat};
 use shell::{
+    action::{Action, Event},
     cell::ProgramSetup,
     context::ShellContext,
     file_dialog::FileDialog,
     inspection::source::file_name,
-    message::{Event, Message},
     notice::{Notice, NoticeTopic},
     session::{Session, WorkspaceKind},
 };
@@ -249,7 +249,7 @@ impl PaintState {
             PaintAction::ResetCoat => self.change(|design| design.coat = design.kept.recipe),
             PaintAction::Name(name) => {
                 self.naming = name;
-                cx.send(Message::RemoveNotices(NoticeTopic::CoatName));
+                cx.send(Action::RemoveNotices(NoticeTopic::CoatName));
             }
             PaintAction::SaveCoat => self.save_coat(cx),
             PaintAction::Show(path) => self.shown_path = path,
@@ -459,7 +459,7 @@ impl PaintState {
             }
             PaintResult::SideChosen(library) => {
                 let saved = None;
-                cx.send(Message::LibraryChanged { library, saved });
+                cx.send(Action::LibraryChanged { library, saved });
             }
             PaintResult::Stored {
                 part,
@@ -480,7 +480,7 @@ impl PaintState {
                     _ => Notice::undoable(what, WorkspaceKind::Paint),
                 });
                 let saved = None;
-                cx.send(Message::LibraryChanged { library, saved });
+                cx.send(Action::LibraryChanged { library, saved });
             }
         }
     }

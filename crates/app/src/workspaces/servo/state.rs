@@ -13,7 +13,6 @@ use shell::{
     action::Action,
     context::ShellContext,
     file_dialog::FileDialog,
-    message::Message,
     notice::Notice,
     session::{Session, WorkspaceKind},
 };
@@ -94,7 +93,7 @@ impl ServoPageState {
     /// Carries out an action.
     pub fn apply(&mut self, action: ServoAction, cx: &mut ShellContext<'_>) {
         match action {
-            ServoAction::SetUp(setup) => cx.send(Message::UseServoSettings(setup)),
+            ServoAction::SetUp(setup) => cx.send(Action::UseServoSettings(setup)),
             ServoAction::Ask(file) => {
                 let lock = &cx.services.dialogs;
                 self.files.open(file, &file.request(), lock, cx.egui);
@@ -105,10 +104,10 @@ impl ServoPageState {
                     setup.seen_as.push(path);
                 }
                 setup.target = ServoTargetKind::CameraPose;
-                cx.send(Message::UseServoSettings(setup));
+                cx.send(Action::UseServoSettings(setup));
             }
             ServoAction::GoToRobot => {
-                cx.send(Message::Act(Action::GoTo(WorkspaceKind::Paint)));
+                cx.send(Action::GoTo(WorkspaceKind::Paint));
             }
             ServoAction::Start => self.start(cx),
             ServoAction::Stop => self.stop(),

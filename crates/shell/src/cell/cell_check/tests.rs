@@ -80,7 +80,7 @@ impl Bench {
     /// Switches to the operator's role and runs the work that this starts.
     fn become_operators(&mut self) {
         self.shell.session.role = UserRole::Operator;
-        self.shell.messages.clear();
+        self.shell.sent.clear();
         assert!(!self.work(), "only asked for");
         assert!(self.work(), "the folder is read");
     }
@@ -149,9 +149,9 @@ fn a_camera_that_moved_is_found_listed_exported_and_told_the_operator() {
     bench.shell.session.role = UserRole::Engineer;
     bench.look_from(4, 0.0);
     assert!(bench.check(CheckAction::Check));
-    let messages = &bench.shell.messages;
-    let is_taken_away = |message: &Message| matches!(message, Message::Retract(_));
-    assert!(messages.iter().any(is_taken_away), "{messages:?}");
+    let sent = &bench.shell.sent;
+    let is_taken_away = |action: &Action| matches!(action, Action::Retract(_));
+    assert!(sent.iter().any(is_taken_away), "{sent:?}");
 }
 
 #[test]
