@@ -47,8 +47,8 @@ use shell::{
     },
     state::{Closing, State, remove_notices},
     trace::{
-        entry, expecting,
-        scanner::{self, KeyTarget},
+        entry::{self, KeyTarget},
+        expecting,
     },
     workspace::Workspace,
 };
@@ -475,7 +475,7 @@ impl Window {
             KeyTarget::Page
         };
         if self.state.session.role == UserRole::Operator
-            && let Some(code) = scanner::listen(&ctx, key_target)
+            && let Some(code) = entry::listen(&ctx, key_target)
         {
             if self.state.roles.may_be_pin(&code) {
                 let digits = code.chars().map(RoleAction::Digit);

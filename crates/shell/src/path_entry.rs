@@ -168,7 +168,7 @@ mod tests {
     use egui_kittest::{Harness, kittest::Queryable as _};
 
     use super::*;
-    use crate::trace::scanner::{self, KeyTarget};
+    use crate::trace::entry::{self, KeyTarget};
 
     fn entry(choice: FileChoice, folder: &Path) -> PathEntry {
         let request = FileRequest {
@@ -271,7 +271,7 @@ mod tests {
                 Theme::install_fonts(ui.ctx());
                 return;
             }
-            let code = scanner::listen(ui.ctx(), KeyTarget::Dialog);
+            let code = entry::listen(ui.ctx(), KeyTarget::Dialog);
             heard.borrow_mut().extend(code);
             super::ui(ui.ctx(), &shared);
         });

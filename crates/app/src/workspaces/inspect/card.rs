@@ -21,7 +21,7 @@ use shell::{
     language::results::{recipe_label, traced},
     session::{Session, UserRole},
     source::live,
-    trace::{entry, expect_menu},
+    trace::{entry, expecting},
 };
 use stages::pose::PoseEstimate;
 use station::Doubt;
@@ -126,7 +126,7 @@ pub(super) fn expecting(ui: &mut Ui, session: &Session, actions: &mut Vec<Inspec
         entry::fields_of_order(ui, session);
     }
     let mut of_shell = Vec::new();
-    expect_menu::ui(ui, session, &mut of_shell);
+    expecting::ui(ui, session, &mut of_shell);
     actions.extend(of_shell.into_iter().map(InspectAction::Act));
 }
 

@@ -18,7 +18,7 @@ use shell::{
     language::results::{mirror_image, recognised_part},
     session::Session,
     standing::past_mark,
-    trace::{entry, expect_menu},
+    trace::{entry, expecting},
 };
 use ui::{
     language::{Language, described, text},
@@ -266,7 +266,7 @@ fn column(ui: &mut Ui, banner: &Banner, session: &Session, actions: &mut Vec<Ins
     // A caution and the last parts are worth more than a menu that is not in use.
     if !expects_any || banner.caution.is_empty() {
         let mut of_shell = Vec::new();
-        expect_menu::ui(ui, session, &mut of_shell);
+        expecting::ui(ui, session, &mut of_shell);
         actions.extend(of_shell.into_iter().map(InspectAction::Act));
     }
     robots_without_answer(ui, session);
