@@ -29,7 +29,7 @@ use shell::{
     cell::RobotCell,
     context::Services,
     file_dialog::{DialogLock, FileDialog},
-    frame::{dialogs, keys, notices, operator_bars, rail, top_bar},
+    frame::{bars, keys, notices, rail},
     inspection::{
         camera::Camera,
         inspected::Inspected,
@@ -243,7 +243,7 @@ impl Window {
         match action {
             Action::Ask(ask) => {
                 let lock = &self.services.dialogs;
-                self.dialog.open(ask, &dialogs::request(ask), lock, ctx);
+                self.dialog.open(ask, &notices::request(ask), lock, ctx);
             }
             Action::Press(kind, index) => {
                 self.lend(kind, ctx, |workspace, cx| workspace.press(index, cx));
@@ -489,9 +489,9 @@ impl Window {
         }
         let work = self.work();
         if self.state.session.is_operator_view() {
-            operator_bars::ui(ui, &self.state, &self.robot, work, &mut actions);
+            bars::operators(ui, &self.state, &self.robot, work, &mut actions);
         } else {
-            top_bar::ui(ui, &self.state, &self.robot, work, &mut actions);
+            bars::top(ui, &self.state, &self.robot, work, &mut actions);
             rail::ui(ui, &self.state, &mut actions);
         }
         let front = self.state.session.workspace;
@@ -510,7 +510,7 @@ impl Window {
         live::set_up(&ctx, &self.state, &mut actions);
         rack::window(&ctx, &self.state, &mut actions);
         roles::dialog(&ctx, &self.state, &mut actions);
-        dialogs::closing(&ctx, &self.state, &mut actions);
+        notices::closing(&ctx, &self.state, &mut actions);
         let of_robot = self.robot.ui(&ctx, &self.state.session);
         actions.extend(of_robot.into_iter().map(Action::Robot));
         path_entry::ui(&ctx, &self.services.dialogs);

@@ -5,7 +5,7 @@ use std::any::Any;
 use super::Window;
 use records::history::HistoryBuffer;
 use shell::{
-    action::Action, cell::RobotCell, context::ShellContext, frame::top_bar::Progress,
+    action::Action, cell::RobotCell, context::ShellContext, frame::bars::Progress,
     session::WorkspaceKind, workspace::Workspace,
 };
 

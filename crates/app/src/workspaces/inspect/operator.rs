@@ -14,7 +14,7 @@ use super::{
 };
 use records::history::StoredVerdict;
 use shell::{
-    frame::operator_bars::column_width,
+    frame::bars::column_width,
     language::results::{mirror_image, recognised_part},
     session::Session,
     standing::past_mark,
@@ -373,7 +373,7 @@ mod tests {
 
     use super::*;
     use shell::{
-        frame::operator_bars::COLUMN,
+        frame::bars::COLUMN,
         inspection::{inspected::inspected_cell, source::CellChoice},
     };
     use ui::theme::ThemeChoice;
