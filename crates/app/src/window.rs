@@ -27,8 +27,7 @@ use shell::{
     action::{Action, DialogRequest, Event},
     apply::apply,
     cell::RobotCell,
-    context::Services,
-    file_dialog::{DialogLock, FileDialog},
+    file_dialog::{self, DialogLock, FileDialog},
     frame::{bars, keys, notices, rail},
     inspection::{
         camera::Camera,
@@ -36,21 +35,21 @@ use shell::{
         library_cache::{LibraryCache, ReadTakenVersion},
     },
     notice::{Notice, NoticeTopic},
-    path_entry, rack,
+    rack,
     roles::{self, RoleAction},
     session::{Source, ThemeChoice, UserRole, WorkspaceKind},
-    settings,
-    settings_file::Memory,
+    settings::{self, Memory},
     source::{
         inspect,
         live::{self, LiveAction},
+        source_menu,
     },
     state::{Closing, State, remove_notices},
     trace::{
         entry::{self, KeyTarget},
         expecting,
     },
-    workspace::Workspace,
+    workspace::{Services, Workspace},
 };
 use ui::{
     language::{Language, text},
@@ -507,13 +506,13 @@ impl Window {
         let hosted = self.hosted(front);
         let view_has_focus = hosted.is_some_and(Workspace::has_key_focus);
         let keys = hosted.map_or_else(Vec::new, Workspace::key_bindings);
-        live::set_up(&ctx, &self.state, &mut actions);
+        source_menu::set_up(&ctx, &self.state, &mut actions);
         rack::window(&ctx, &self.state, &mut actions);
         roles::dialog(&ctx, &self.state, &mut actions);
         notices::closing(&ctx, &self.state, &mut actions);
         let of_robot = self.robot.ui(&ctx, &self.state.session);
         actions.extend(of_robot.into_iter().map(Action::Robot));
-        path_entry::ui(&ctx, &self.services.dialogs);
+        file_dialog::ui(&ctx, &self.services.dialogs);
         keys::help(&ctx, &self.state, &keys, &mut actions);
         notices::ui(&ctx, room, &self.state, &mut actions);
         let is_behind_dialog = self.is_behind_dialog(&ctx);

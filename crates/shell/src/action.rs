@@ -7,8 +7,7 @@ use crate::{
     inspection::{
         inspected::{InspectJob, Inspected},
         library_cache::LibraryView,
-        scan_choice::ScanOrder,
-        source::{CellChoice, SceneOrScan},
+        source::{CellChoice, ScanOrder, SceneOrScan},
     },
     notice::{Notice, NoticeTopic},
     rack::RackAction,

@@ -5,7 +5,7 @@ use std::path::{self, PathBuf};
 use crate::{
     action::{Action, DialogRequest, Event},
     cell::AnswerSetup,
-    inspection::scan_choice::ScanFiles,
+    inspection::source::ScanFiles,
     notice::{Notice, NoticeKind},
     rack::{self, RackAction},
     roles,

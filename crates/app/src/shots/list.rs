@@ -14,11 +14,10 @@ use super::{
 };
 use shell::{
     inspection::{
-        fuse::FusedShots,
-        scan_choice::ShotChoice,
-        scan_figure::{ShotFate, ShotRow},
-        unit_system::UnitSystem,
+        scan::{FusedShots, ShotFate, ShotRow},
+        source::ShotChoice,
     },
+    language::UnitSystem,
     session::{Session, WorkspaceKind},
 };
 use ui::{

@@ -2,7 +2,10 @@
 
 use egui::{RichText, Ui};
 
-use shell::inspection::{fuse::FusedShots, scan_figure::ShotFate, unit_system::UnitSystem};
+use shell::{
+    inspection::scan::{FusedShots, ShotFate},
+    language::UnitSystem,
+};
 use ui::{
     language::{self, described, text, what_and_advice},
     theme::{Theme, font, space},

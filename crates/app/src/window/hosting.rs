@@ -5,8 +5,11 @@ use std::any::Any;
 use super::Window;
 use records::history::HistoryBuffer;
 use shell::{
-    action::Action, cell::RobotCell, context::ShellContext, frame::bars::Progress,
-    session::WorkspaceKind, workspace::Workspace,
+    action::Action,
+    cell::RobotCell,
+    frame::bars::Progress,
+    session::WorkspaceKind,
+    workspace::{ShellContext, Workspace},
 };
 
 impl Window {

@@ -24,7 +24,8 @@ use records::history::{
 };
 use shell::{
     action::Action,
-    inspection::{source::CellChoice, unit_system::UnitSystem},
+    inspection::source::CellChoice,
+    language::UnitSystem,
     roles::RoleAction,
     session::{ThemeChoice, WorkspaceKind},
 };

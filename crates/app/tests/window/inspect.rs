@@ -17,8 +17,8 @@ use shell::{
         inspected::{InspectRequest, inspect_all},
         library_cache::LibraryCache,
         source::{CellChoice, SceneSource},
-        unit_system::UnitSystem,
     },
+    language::UnitSystem,
     notice::Notice,
     session::{ThemeChoice, WorkspaceKind},
 };

@@ -16,9 +16,9 @@ use self::work::{AnswerInputs, AnswerRequest, answer};
 pub use self::work::{AnsweringStatus, LastAnswer};
 use crate::{
     action::Action,
-    context::ShellContext,
     notice::{Notice, NoticeTopic},
     session::Session,
+    workspace::ShellContext,
 };
 use geometry::error::lock;
 use robot::RobotFrame;

@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     cell::dialog_state::{RobotAction, RobotDialog},
-    language::robot::convention_meaning,
+    language::convention_meaning,
 };
 use robot::{Convention, calibration::CameraPlace};
 use ui::{

@@ -11,13 +11,13 @@ use jiff::{Timestamp, tz::TimeZone};
 
 use crate::{
     action::Action,
-    context::ShellContext,
     inspection::{
         camera::Camera,
         source::{Captured, Origin, SceneError, SceneSource},
     },
     notice::Notice,
     session::{Session, Source, UserRole},
+    workspace::ShellContext,
 };
 use capture::SourceSpec;
 use files::write_atomically;

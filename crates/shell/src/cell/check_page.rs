@@ -10,7 +10,7 @@ use super::{
 };
 use crate::{
     cell::dialog_state::{CheckAction, RobotAction, RobotDialog, RobotFile, RobotQuestion},
-    inspection::unit_system::UnitSystem,
+    language::UnitSystem,
     session::Session,
     source::source_menu,
 };

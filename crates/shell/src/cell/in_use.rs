@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     cell::dialog_state::{RobotAction, RobotDialog, RobotFile, RobotQuestion},
-    language::robot::convention_meaning,
+    language::convention_meaning,
     session::Session,
 };
 use geometry::rigid::RigidTransform;

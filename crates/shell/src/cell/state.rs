@@ -9,8 +9,8 @@ use super::{
     work::{self, CellInUse, RobotResult},
 };
 use crate::{
-    action::Action, context::ShellContext, file_dialog::FileDialog, inspection::source::file_name,
-    notice::Notice, session::RememberedCell,
+    action::Action, file_dialog::FileDialog, inspection::source::file_name, notice::Notice,
+    session::RememberedCell, workspace::ShellContext,
 };
 use robot::{
     calibration::{CalibrationFit, CameraPlace, CellCalibration, Origin},
@@ -348,7 +348,7 @@ mod tests {
     use jiff::Timestamp;
 
     use super::*;
-    use crate::context::TestShell;
+    use crate::workspace::TestShell;
     use geometry::rigid::{RigidTransform, from_euler_zyx};
     use robot::{Convention, hand_eye::Mount};
 

@@ -12,14 +12,17 @@ use nalgebra::Point3;
 
 use super::{
     figures::StageFigures,
-    fuse::{FuseError, FusedShots, Steps, Then, fuse},
     library_cache::{LibraryCache, LibraryView},
-    scan_choice::{ScanOrder, ScanRequest},
-    scan_figure::marked,
     scene_figure::{SceneFigure, SceneFigureInput, deviations, deviations_at},
     source::{Captured, Origin, SceneOrScan, SceneSource},
 };
-use crate::language::results::is_called_by_name;
+use crate::{
+    inspection::{
+        scan::{FuseError, FusedShots, Steps, Then, fuse, marked},
+        source::{ScanOrder, ScanRequest},
+    },
+    language::is_called_by_name,
+};
 use capture::CaptureWarning;
 use geometry::{cloud::PointCloud, rigid::RigidTransform};
 use inspection::{

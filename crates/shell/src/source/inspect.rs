@@ -14,8 +14,7 @@ use crate::{
     inspection::{
         inspected::{InspectJob, Inspected},
         library_cache::{LibraryCache, LibraryView},
-        scan_choice::ScanOrder,
-        source::{Origin, SceneOrScan, SceneSource, file_name},
+        source::{Origin, ScanOrder, SceneOrScan, SceneSource, file_name},
     },
     notice::{Notice, NoticeTopic},
     session::{

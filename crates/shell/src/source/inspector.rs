@@ -10,11 +10,10 @@ use super::live::{FollowedParts, assign_as_before};
 use crate::{
     inspection::{
         folder_watch::FolderWatch,
-        fuse::Steps,
         inspected::{InspectJob, Inspected, inspect_all, inspect_scan},
         library_cache::{LibraryCache, LibraryView},
-        scan_choice::ScanOrder,
-        source::Origin,
+        scan::Steps,
+        source::{Origin, ScanOrder},
     },
     session::{ReinspectionPurpose, Source},
     trace::current_trace::CurrentTrace,

@@ -34,9 +34,8 @@ pub use self::{
 };
 use self::{side::SidePanel, views::LinkedViews};
 use shell::{
-    context::ShellContext,
     session::{Session, WorkspaceKind},
-    workspace::Workspace,
+    workspace::{ShellContext, Workspace},
 };
 pub use ui::scrubber::Playback;
 use ui::{

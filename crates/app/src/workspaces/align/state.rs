@@ -13,8 +13,8 @@ use super::{
 };
 use inspection::pipeline::Verdict;
 use shell::{
-    action::Action, context::ShellContext, file_dialog::FileDialog, inspection::source::file_name,
-    notice::Notice, session::Session,
+    action::Action, file_dialog::FileDialog, inspection::source::file_name, notice::Notice,
+    session::Session, workspace::ShellContext,
 };
 use ui::{
     language::text,

@@ -5,8 +5,7 @@ use egui::{Button, RichText, Ui, WidgetInfo};
 use super::{CompareAction, CompareState, Front, Undo, study::CaseStudy};
 use records::cases::{CaseOutcome, Truth};
 use shell::{
-    session::Session,
-    standing::verdict_mark,
+    session::{Session, verdict_mark},
     truth_menu::{truth_entries, truth_title},
 };
 use ui::{

@@ -9,9 +9,9 @@ use records::{
 };
 use shell::{
     action::Action,
-    context::ShellContext,
     inspection::inspected::Inspected,
     notice::{Notice, NoticeTopic},
+    workspace::ShellContext,
 };
 use ui::language::text;
 

@@ -36,9 +36,8 @@ pub use self::{
     work::{CaseDone, CaseEdit, CaseRun, CompareResult, RunChanges},
 };
 use shell::{
-    context::ShellContext,
     session::{Session, WorkspaceKind},
-    workspace::Workspace,
+    workspace::{ShellContext, Workspace},
 };
 use ui::{
     key_binding::{CTRL_SHIFT, KeyBinding, Shortcut},

@@ -16,7 +16,7 @@ use inspection::{
         Replace,
     },
 };
-use shell::{action::Action, context::ShellContext, notice::Notice, session::UserRole};
+use shell::{action::Action, notice::Notice, session::UserRole, workspace::ShellContext};
 use ui::{language::text, undo_stack::UndoDirection, user_error::UserError};
 
 impl CompareState {

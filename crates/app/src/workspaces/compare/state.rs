@@ -21,11 +21,11 @@ use inspection::{
 use records::cases::{CaseError, CaseFolder, Cell, KeptCase, Truth};
 use shell::{
     action::Action,
-    context::ShellContext,
     file_dialog::FileDialog,
     inspection::folder_watch::FolderWatch,
     notice::{Notice, NoticeTopic},
     session::Shown,
+    workspace::ShellContext,
 };
 use ui::{
     language::text,

@@ -8,7 +8,7 @@ use super::{
     state::{CompareState, Undo},
 };
 use inspection::pipeline::{NamedRecipe, Recipe, parameters::num_changed};
-use shell::{action::Action, context::ShellContext, language::results::recipe_label};
+use shell::{action::Action, language::recipe_label, workspace::ShellContext};
 use ui::{language::text, undo_stack::UndoDirection};
 
 impl CompareState {

@@ -276,8 +276,8 @@ mod tests {
         selection::{Edit, OutlineMode},
     };
     use shell::{
-        context::TestShell,
         inspection::source::{CellChoice, SceneOrScan, SceneSource},
+        workspace::TestShell,
     };
 
     fn outline(over: DrawnOver) -> DrawnOutline {

@@ -48,10 +48,9 @@ use self::{
 use crate::shots::{ShotList, ShownShots, StripTab};
 use shell::{
     action::Event,
-    context::ShellContext,
     inspection::source::SceneOrScan,
     session::{Session, WorkspaceKind},
-    workspace::Workspace,
+    workspace::{ShellContext, Workspace},
 };
 use ui::{
     key_binding::{CTRL_SHIFT, KeyBinding, Shortcut},

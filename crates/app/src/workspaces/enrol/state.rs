@@ -15,11 +15,11 @@ use crate::shots::{Asked, ShotsAction, ShotsFile, ShotsState};
 use inspection::library::PartName;
 use shell::{
     action::{Action, DialogRequest, Event},
-    context::ShellContext,
     file_dialog::FileDialog,
-    inspection::{library_cache::LibraryView, scan_choice::ShotChoice},
+    inspection::{library_cache::LibraryView, source::ShotChoice},
     notice::{Notice, NoticeTopic},
     session::{Session, UserRole, WorkspaceKind},
+    workspace::ShellContext,
 };
 use ui::{
     language::{text, what_and_advice},

@@ -18,12 +18,9 @@ use super::{
 use crate::shots::{Asked, ShotsAction, ShotsFile, source_of};
 use shell::{
     action::Action,
-    context::ShellContext,
-    inspection::{
-        scan_choice::ScanOrder,
-        source::{Origin, SceneOrScan, SceneSource},
-    },
+    inspection::source::{Origin, ScanOrder, SceneOrScan, SceneSource},
     notice::{Notice, NoticeTopic},
+    workspace::ShellContext,
 };
 use ui::{language::text, user_error::UserError};
 

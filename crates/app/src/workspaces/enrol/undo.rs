@@ -14,15 +14,14 @@ use super::{
 use inspection::library::PartName;
 use shell::{
     action::Action,
-    context::ShellContext,
     inspection::{
         inspected::Inspected,
         library_cache::LibraryView,
-        scan_choice::{ScanOrder, ShotSet},
-        source::{SceneOrScan, SceneSource},
+        source::{ScanOrder, SceneOrScan, SceneSource, ShotSet},
     },
     notice::Notice,
     session::{Session, WorkspaceKind},
+    workspace::ShellContext,
 };
 use stages::scene::SceneCloud;
 use ui::{language::text, undo_stack::UndoDirection};

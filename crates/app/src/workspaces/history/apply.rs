@@ -12,10 +12,10 @@ use super::{
 use records::history::{HistoryEvent, NewEntry, PruneResult, SetAside};
 use shell::{
     action::{Action, Event},
-    context::ShellContext,
     inspection::{inspected::Inspected, source::file_name},
     notice::Notice,
     session::{ReinspectionPurpose, UserRole, WorkspaceKind},
+    workspace::ShellContext,
 };
 use ui::{language::text, user_error::UserError};
 

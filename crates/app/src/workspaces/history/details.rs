@@ -10,12 +10,11 @@ use super::{
 };
 use records::history::{Differences, InspectionDetail, Record, StoredVerdict, Summary};
 use shell::{
-    inspection::unit_system::UnitSystem,
-    language::results::{
-        accepted_or_not, inspection_title, recipe_label, refusal_kind, scene_title, source_title,
+    language::{
+        UnitSystem, accepted_or_not, inspection_title, recipe_label, refusal_kind, scene_title,
+        source_title,
     },
-    session::Session,
-    standing::past_mark,
+    session::{Session, past_mark},
 };
 use ui::{
     language::{Language, advised, described, keys, text},

@@ -4,7 +4,7 @@ use egui::{Grid, Label, RichText, Ui, vec2};
 
 use inspection::pipeline::{Recipe, parameters::Parameter};
 use records::history::{Differences, InspectionSummary};
-use shell::inspection::unit_system::UnitSystem;
+use shell::language::UnitSystem;
 use ui::{
     language::{described, parameters, text},
     theme::{Theme, font},

@@ -11,9 +11,8 @@ use super::{HistoryAction, HistoryState, bar, label::in_one_line};
 use records::history::Summary;
 use shell::{
     inspection::library_cache::LibraryView,
-    language::results::{inspection_title, scene_title},
-    session::Session,
-    standing::past_mark,
+    language::{inspection_title, scene_title},
+    session::{Session, past_mark},
     truth_menu::truth_title,
 };
 use ui::{

@@ -33,10 +33,9 @@ use self::{details::Details, list::List};
 use records::history::{HistoryBuffer, Writer};
 use shell::{
     action::Event,
-    context::ShellContext,
     inspection::folder_watch::FolderWatch,
     session::{Session, WorkspaceKind},
-    workspace::Workspace,
+    workspace::{ShellContext, Workspace},
 };
 use ui::{
     key_binding::{KeyBinding, Shortcut},

@@ -9,15 +9,14 @@ use super::{
 use records::history::{Differences, InspectionSummary, Record};
 use shell::{
     action::Action,
-    context::ShellContext,
     inspection::{
         inspected::{InspectJob, InspectRequest, Inspected},
-        scan_choice::{ScanOrder, ScanRequest},
-        source::{HistoryFrame, Origin, SceneOrScan, SceneSource},
+        source::{HistoryFrame, Origin, ScanOrder, ScanRequest, SceneOrScan, SceneSource},
     },
-    language::results::scene_title,
+    language::scene_title,
     notice::Notice,
     session::{ReinspectionPurpose, WorkspaceKind},
+    workspace::ShellContext,
 };
 use ui::language::text;
 

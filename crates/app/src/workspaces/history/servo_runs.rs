@@ -14,10 +14,9 @@ use super::{
 };
 use records::history::{ServoRecord, ServoRun};
 use shell::{
-    context::ShellContext,
-    inspection::unit_system::UnitSystem,
-    language::robot::{end_title, shift_and_turn, target_title},
+    language::{UnitSystem, end_title, shift_and_turn, target_title},
     servo_curve,
+    workspace::ShellContext,
 };
 use ui::{
     language::{advised, described, text},

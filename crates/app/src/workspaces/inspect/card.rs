@@ -17,8 +17,8 @@ use inspection::pipeline::{Rejection, Unrecognisable, Verdict};
 use shell::{
     action::Action,
     cell::RobotAction,
-    inspection::{inspected::Inspected, unit_system::UnitSystem},
-    language::results::{recipe_label, traced},
+    inspection::inspected::Inspected,
+    language::{UnitSystem, recipe_label, traced},
     session::{Session, UserRole},
     source::live,
     trace::{entry, expecting},

@@ -7,7 +7,7 @@ use inspection::pipeline::{Rejection, Verdict, is_like, live::MotionState};
 use records::history::StoredVerdict;
 use shell::{
     inspection::inspected::Inspected,
-    language::results::{accepted_or_not, is_called_by_name},
+    language::{accepted_or_not, is_called_by_name},
     session::Session,
     truth_menu::truth_title,
 };

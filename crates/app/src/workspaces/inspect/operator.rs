@@ -15,9 +15,8 @@ use super::{
 use records::history::StoredVerdict;
 use shell::{
     frame::bars::column_width,
-    language::results::{mirror_image, recognised_part},
-    session::Session,
-    standing::past_mark,
+    language::{mirror_image, recognised_part},
+    session::{Session, past_mark},
     trace::{entry, expecting},
 };
 use ui::{

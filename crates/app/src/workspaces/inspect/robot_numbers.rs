@@ -5,9 +5,7 @@ use egui::{Align, Layout, RichText, Ui};
 use super::{action::InspectAction, hold::Hold};
 use geometry::rigid::RigidTransform;
 use robot::{Convention, RobotPose, RobotValue, Unit};
-use shell::{
-    inspection::inspected::Inspected, language::robot::convention_meaning, session::Session,
-};
+use shell::{inspection::inspected::Inspected, language::convention_meaning, session::Session};
 use ui::{
     language::{described, text},
     theme::{Theme, font, space},

@@ -3,7 +3,7 @@
 use egui::{Align2, Rect, RichText, Sense, Ui, pos2, vec2};
 
 use robot::spray::{BandStatus, CarriedPath, MOST_TILT, SurfaceHit};
-use shell::inspection::{inspected::Inspected, unit_system::UnitSystem};
+use shell::{inspection::inspected::Inspected, language::UnitSystem};
 use stages::stand_off::{StandOff, StandOffParams};
 use ui::{
     language::{described, text},

@@ -11,18 +11,18 @@ use crate::shots::{Asked, ShotsAction, ShotsFile, ShotsState, source_of};
 use records::history::Traceability;
 use shell::{
     action::{Action, Event},
-    context::ShellContext,
     file_dialog::FileDialog,
     inspection::{
         figures::StagePanel,
-        fuse::FusedShots,
         inspected::{InspectJob, Inspected},
         report_files,
-        scan_choice::{ScanOrder, ShotChoice},
+        scan::FusedShots,
+        source::{ScanOrder, ShotChoice},
     },
     notice::Notice,
     session::{ReinspectionPurpose, Session, Source, WorkspaceKind},
     source::live::LiveAction,
+    workspace::ShellContext,
 };
 use ui::{
     language::{described, text},
@@ -449,9 +449,12 @@ mod tests {
     use geometry::rigid::RigidTransform;
     use robot::RobotFrame;
     use shell::{
-        context::TestShell,
-        inspection::{inspected::inspected_cell, scan_choice::ScanFiles, source::CellChoice},
+        inspection::{
+            inspected::inspected_cell,
+            source::{CellChoice, ScanFiles},
+        },
         session::Shown,
+        workspace::TestShell,
     };
 
     #[test]

@@ -24,13 +24,13 @@ use records::history::Traceability;
 use robot::{RobotFrame, spray::carry};
 use shell::{
     action::Action,
-    context::TestShell,
     inspection::{
         inspected::{Inspected, LiveFrameContext, inspected_cell},
         source::{CellChoice, Origin},
     },
     session::{Inspecting, ReinspectionPurpose, Session, Shown, Source, UserRole},
     source::live::{LiveStatus, SourceState},
+    workspace::TestShell,
 };
 use stages::{pose::RunnerUp, scan};
 use station::{CaptureFacts, ScanFacts};

@@ -16,7 +16,8 @@ use geometry::{oriented_box::OrientedBox, rigid::RigidTransform, units::Metres};
 use inspection::rack::Rack;
 use records::history::HungId;
 use shell::{
-    inspection::{inspected::Inspected, scene_figure::SprayFigure, unit_system::UnitSystem},
+    inspection::{inspected::Inspected, scene_figure::SprayFigure},
+    language::UnitSystem,
     session::{Session, Shown},
 };
 use ui::{

@@ -8,8 +8,8 @@ use inspection::{
 use robot::paint::{Coat, built_in_coat};
 use shell::{
     action::Action,
-    context::ShellContext,
     notice::{Notice, NoticeTopic},
+    workspace::ShellContext,
 };
 use ui::{language::text, parameter_control::ParameterChange, user_error::UserError};
 

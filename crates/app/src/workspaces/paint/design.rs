@@ -11,10 +11,10 @@ use robot::paint::{Coat, KeepOut, PathEdit};
 use shell::{
     action::Action,
     cell::ProgramSetup,
-    context::ShellContext,
     inspection::library_cache::LibraryView,
     notice::{Notice, NoticeTopic},
     session::Session,
+    workspace::ShellContext,
 };
 use ui::{language::text, undo_stack::UndoDirection};
 

@@ -40,9 +40,8 @@ pub use self::{
 };
 use shell::{
     action::Event,
-    context::ShellContext,
     session::{Session, WorkspaceKind},
-    workspace::Workspace,
+    workspace::{ShellContext, Workspace},
 };
 pub use ui::scrubber::Playback;
 use ui::{

@@ -15,7 +15,7 @@ use robot::{
     arm::{ARM_NAMES, Arm, PointProblem},
     program::ProgramParams,
 };
-use shell::{cell::ProgramSetup, language::robot::not_checked, session::Session};
+use shell::{cell::ProgramSetup, language::not_checked, session::Session};
 use station::robot_file::Unchecked;
 use ui::{
     language::{parameters, text},

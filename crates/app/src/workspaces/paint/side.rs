@@ -17,7 +17,7 @@ use inspection::{
     library::Side,
     pipeline::parameters::{Parameters as _, Place},
 };
-use shell::{language::results::painted_from, session::Session};
+use shell::{language::painted_from, session::Session};
 use stages::reference::Coverage;
 use ui::{
     language::{parameters, text, within_sentence},

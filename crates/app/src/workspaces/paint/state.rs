@@ -17,11 +17,11 @@ use robot::paint::{BUILT_IN_COATS, CoatFolder, built_in_coat};
 use shell::{
     action::{Action, Event},
     cell::ProgramSetup,
-    context::ShellContext,
     file_dialog::FileDialog,
     inspection::source::file_name,
     notice::{Notice, NoticeTopic},
     session::{Session, WorkspaceKind},
+    workspace::ShellContext,
 };
 use ui::{
     language::text,

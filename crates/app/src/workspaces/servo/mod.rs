@@ -24,10 +24,9 @@ pub use self::{
     work::RunView,
 };
 use shell::{
-    context::ShellContext,
     servo_curve,
     session::{Session, WorkspaceKind},
-    workspace::Workspace,
+    workspace::{ShellContext, Workspace},
 };
 use ui::{
     key_binding::{KeyBinding, Shortcut},

@@ -9,9 +9,7 @@ use super::{
 use geometry::oriented_box::OrientedBox;
 use records::history::ServoTargetKind;
 use servo::{ServoParams, simulated::StreamProtocol};
-use shell::{
-    cell::ServoSettings, language::robot::target_title, rack::box_numbers, session::Session,
-};
+use shell::{cell::ServoSettings, language::target_title, rack::box_numbers, session::Session};
 use ui::{
     language::text,
     theme::space,

@@ -10,8 +10,7 @@ use super::{
 };
 use servo::ServoState;
 use shell::{
-    inspection::unit_system::UnitSystem,
-    language::robot::{end_title, shift_and_turn, state_title},
+    language::{UnitSystem, end_title, shift_and_turn, state_title},
     session::Session,
 };
 use ui::{

@@ -11,10 +11,10 @@ use records::history::{ServoSample, ServoTargetKind};
 use servo::{ServoState, simulated::StreamProtocol};
 use shell::{
     action::Action,
-    context::ShellContext,
     file_dialog::FileDialog,
     notice::Notice,
     session::{Session, WorkspaceKind},
+    workspace::ShellContext,
 };
 use simulate::PartKind;
 use station::servoing::RobotAddress;

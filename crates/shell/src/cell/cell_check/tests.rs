@@ -3,10 +3,10 @@ use std::fs;
 use super::*;
 use crate::{
     cell::{CheckAction, RobotAction, RobotCell, RobotDialog, RobotPage},
-    context::TestShell,
-    inspection::scan_choice::ScanFiles,
+    inspection::source::ScanFiles,
     source::inspect,
     state::State,
+    workspace::TestShell,
 };
 use geometry::units::Metres;
 use robot::cell_check::CellFinding;

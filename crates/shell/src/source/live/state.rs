@@ -2,15 +2,13 @@
 
 use std::{mem, sync::Arc, thread, time::Duration};
 
-use super::{
-    live_state::LiveAction,
-    work::{LiveAnswer, LiveRecord, LiveStart, SourceState, follow, rest},
-};
+use super::work::{LiveAnswer, LiveRecord, LiveStart, SourceState, follow, rest};
 use crate::{
     action::{Action, DialogRequest, Event},
     inspection::{camera::no_more_frames, inspected::Inspected},
     notice::{Notice, NoticeTopic},
     session::{ReinspectionPurpose, Session, Shown, Source, UserRole, WorkspaceKind},
+    source::live::work::LiveAction,
     state::{State, notify, remove_notices},
     trace::{current_trace::CurrentTrace, expecting},
 };

@@ -4,11 +4,11 @@ use super::*;
 use crate::workspaces::align::{scrubber::explanation, track::in_the_window};
 use geometry::{cloud::PointCloud, rigid::RigidTransform};
 use shell::{
-    context::TestShell,
     inspection::{
         camera::Camera, inspected::inspected_cell, library_cache::LibraryCache, source::CellChoice,
     },
     session::Shown,
+    workspace::TestShell,
 };
 use simulate::{PartKind, Side};
 use stages::pose::PoseMethod;

@@ -12,7 +12,7 @@ use records::{
     },
     history::FrameRecord,
 };
-use shell::context::TestShell;
+use shell::workspace::TestShell;
 use stages::scene::{PictureEdge, scene_from_cloud};
 
 fn kept(name: &str) -> KeptCase {

@@ -14,7 +14,6 @@ use super::{
 use geometry::cloud::PointCloud;
 use inspection::library::{LibraryFolder, PartNaming};
 use shell::{
-    context::TestShell,
     inspection::{
         camera::Camera,
         inspected::inspected_cell,
@@ -23,6 +22,7 @@ use shell::{
     },
     notice::NoticeKind,
     session::{Shown, WorkspaceKind},
+    workspace::TestShell,
 };
 use simulate::{PartKind, Side};
 use stages::scene::SceneCloud;

@@ -8,9 +8,9 @@ use records::{
 };
 use shell::{
     action::{Action, Event},
-    context::TestShell,
     inspection::{inspected::inspected_cell, source::CellChoice},
     session::{ReinspectionPurpose, UserRole, WorkspaceKind},
+    workspace::TestShell,
 };
 use ui::language::Language;
 

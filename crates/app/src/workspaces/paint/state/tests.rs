@@ -12,12 +12,12 @@ use robot::{
     paint::{KeepOut, PathEdit},
 };
 use shell::{
-    context::TestShell,
     inspection::{
         camera::Camera, inspected::inspected_cell, library_cache::LibraryCache, source::CellChoice,
     },
     notice::NoticeKind,
     session::Shown,
+    workspace::TestShell,
 };
 use simulate::{PartKind, Side};
 use ui::{parameter_control::ParameterChange, viewport::Role};
