@@ -130,7 +130,7 @@ impl DialogLock {
     }
 
     /// The path being typed, if any.
-    pub(super) fn typed(&self) -> RefMut<'_, Option<PathEntry>> {
+    fn typed(&self) -> RefMut<'_, Option<PathEntry>> {
         self.0.typed.borrow_mut()
     }
 
@@ -316,7 +316,7 @@ const WIDTH: f32 = 560.0;
 
 /// A path being typed.
 #[derive(Debug)]
-pub(super) struct PathEntry {
+struct PathEntry {
     request: FileRequest,
     /// The folder in which typing started.
     folder: PathBuf,
@@ -325,13 +325,13 @@ pub(super) struct PathEntry {
     /// The existing file that would be replaced, once the user was warned.
     replaced: Option<PathBuf>,
     /// The confirmed path; `None` inside if cancelled.
-    pub(super) outcome: Poll<Option<PathBuf>>,
+    outcome: Poll<Option<PathBuf>>,
     is_new: bool,
 }
 
 impl PathEntry {
     /// Starts in this folder.
-    pub(super) fn new(request: FileRequest, folder: PathBuf) -> Self {
+    fn new(request: FileRequest, folder: PathBuf) -> Self {
         let begun = match &request.choice {
             // With a separator at the end.
             FileChoice::File | FileChoice::Folder => folder.join(""),

@@ -5,7 +5,6 @@
 //! - [`cell`]: the robot's cell, its calibration and its check, and the answers to robots.
 //! - [`rack`]: where parts may hang, and the window in which that is edited.
 //! - [`roles`]: the operator's and the engineer's view. [`trace`]: serial numbers and orders, typed or scanned.
-//! - [`servo_curve`]: the curve of a run of visual servoing.
 //! - [`inspection`]: a scene, its result and the data drawn for both; no session. [`language`]: the texts of results.
 //!
 //! A control outside the workspaces causes an [`action`], which changes the window's [`state`]. Workspaces are above: the shell
@@ -23,12 +22,10 @@ pub mod language;
 pub mod notice;
 pub mod rack;
 pub mod roles;
-pub mod servo_curve;
 pub mod session;
 pub mod settings;
 pub mod shift;
 pub mod source;
 pub mod state;
 pub mod trace;
-pub mod truth_menu;
 pub mod workspace;

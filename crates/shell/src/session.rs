@@ -185,7 +185,7 @@ impl Session {
 
     /// True if Live inspected the latest result and was switched off or has ended since: the line may have gone on, so another
     /// part may hang there now. Whoever looks at the result still may, so it is not outdated.
-    pub(crate) fn is_after_live(&self) -> bool {
+    fn is_after_live(&self) -> bool {
         let shown = self.shown.as_ref();
         let is_of_live = shown.is_some_and(|shown| shown.session.is_some());
         !self.is_live() && (is_of_live || !self.live.unseen.is_empty())

@@ -5,8 +5,10 @@ use std::{path::PathBuf, sync::Arc};
 use super::{
     answering::Answering,
     cell_check::CellChecks,
-    dialog_state::{CheckAction, RobotAction, RobotDialog, RobotFile, RobotPage, RobotQuestion},
-    work::{self, CellInUse, RobotResult},
+    dialog_state::{
+        CellInUse, CheckAction, RobotAction, RobotDialog, RobotFile, RobotPage, RobotQuestion,
+        RobotResult, confirm_calibration, load_calibration, save_calibration, solve_pairs,
+    },
 };
 use crate::{
     action::Action, file_dialog::FileDialog, inspection::source::file_name, notice::Notice,
@@ -186,12 +188,12 @@ impl RobotCell {
     }
 
     fn load(&mut self, path: PathBuf) {
-        let job = |_: &_| Ok(work::load(path, None)?);
+        let job = |_: &_| Ok(load_calibration(path, None)?);
         self.task.start(text!("robot-opening"), job);
     }
 
     fn save(&mut self, path: PathBuf, calibration: CellCalibration) {
-        let job = move |_: &_| Ok(work::save(path, &calibration)?);
+        let job = move |_: &_| Ok(save_calibration(path, &calibration)?);
         self.task.start(text!("robot-saving"), job);
     }
 
@@ -205,7 +207,7 @@ impl RobotCell {
             (!is_confirmed && in_use.is_edited).then_some(RobotQuestion::ConfirmEdited);
         if is_confirmed && in_use.is_edited {
             let path = in_use.path.clone();
-            let job = |_: &_| Ok(work::confirm(path)?);
+            let job = |_: &_| Ok(confirm_calibration(path)?);
             self.task.start(text!("robot-saving"), job);
         }
     }
@@ -254,7 +256,7 @@ impl RobotCell {
             dialog.problem = None;
             dialog.solved = None;
             let (mount, left_out) = (dialog.mount, dialog.left_out.clone());
-            let job = move |_: &_| Ok(work::solve_pairs(pairs, mount, left_out)?);
+            let job = move |_: &_| Ok(solve_pairs(pairs, mount, left_out)?);
             self.task.start(text!("robot-calculating"), job);
         }
     }

@@ -218,7 +218,7 @@ fn settings(ui: &mut Ui, state: &State, is_at_work: bool, actions: &mut Vec<Acti
 }
 
 /// Draws the menu of languages, each by its own name.
-pub(super) fn language_menu(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
+fn language_menu(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
     let now = state.session.language;
     let menu = ui.menu_button(format!("{} ▼", now.sign()), |ui| {
         for language in Language::ALL {
@@ -293,12 +293,7 @@ fn library_menu(
 }
 
 /// Draws the running work and its cancel button.
-pub(super) fn progress(
-    ui: &mut Ui,
-    state: &State,
-    work: Option<Progress>,
-    actions: &mut Vec<Action>,
-) {
+fn progress(ui: &mut Ui, state: &State, work: Option<Progress>, actions: &mut Vec<Action>) {
     let theme = Theme::of(ui);
     let Some(Progress { running, cancel }) = work else {
         if has_live_chip(&state.session) {
@@ -341,7 +336,7 @@ pub(super) fn progress(
 }
 
 /// Height of the lower bar, logical pixels.
-pub(crate) const LOWER: f32 = 76.0;
+const LOWER: f32 = 76.0;
 /// Height of its buttons, logical pixels.
 const BUTTON: f32 = 52.0;
 /// Width of the column beside the picture in a wide and in a narrow window, logical pixels.

@@ -56,7 +56,7 @@ impl Session {
     }
 
     /// What should hang there for an order and a serial number.
-    pub(crate) fn expected_of(&self, trace: &Traceability) -> Result<Expected, NotKnown> {
+    fn expected_of(&self, trace: &Traceability) -> Result<Expected, NotKnown> {
         // A library that is not loaded yet is not known to lack a part.
         let library = self.library.as_ref();
         let is_enrolled = |name: &str| {
@@ -176,7 +176,7 @@ impl Session {
     }
 
     /// True if a place of the rack is for this part, too.
-    pub(super) fn may_hang_at(&self, place: &Place, name: &str) -> bool {
+    fn may_hang_at(&self, place: &Place, name: &str) -> bool {
         let parts = self.library.iter().flat_map(|library| &library.parts);
         let mut references = parts.filter(|part| part.part_name().as_str() == name);
         let is_for = |reference: &str| place.parts.iter().any(|part| part.name == reference);
@@ -184,7 +184,7 @@ impl Session {
     }
 
     /// Names of the enrolled parts, each once.
-    pub(super) fn part_names(&self) -> Vec<&PartName> {
+    fn part_names(&self) -> Vec<&PartName> {
         let parts = self.library.iter().flat_map(|library| &library.parts);
         let mut names: Vec<&PartName> = parts.map(PartMeta::part_name).collect();
         names.sort();

@@ -3,13 +3,10 @@
 use egui::{Ui, WidgetInfo};
 
 use super::HistoryAction;
+use crate::shared::{truth_entries, truth_title};
 use inspection::library::Truth;
 use records::history::Summary;
-use shell::{
-    inspection::library_cache::LibraryView,
-    session::Session,
-    truth_menu::{truth_entries, truth_title},
-};
+use shell::{inspection::library_cache::LibraryView, session::Session};
 use ui::{
     language::text,
     widgets::{heading, line_edit, shortened},

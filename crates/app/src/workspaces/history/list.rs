@@ -8,12 +8,12 @@ use egui::{
 use jiff::{Timestamp, tz::TimeZone};
 
 use super::{HistoryAction, HistoryState, bar, label::in_one_line};
+use crate::shared::truth_title;
 use records::history::Summary;
 use shell::{
     inspection::library_cache::LibraryView,
     language::{inspection_title, scene_title},
     session::{Session, past_mark},
-    truth_menu::truth_title,
 };
 use ui::{
     language::{Language, described, text},

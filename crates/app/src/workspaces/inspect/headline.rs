@@ -3,13 +3,13 @@
 use egui::{Color32, FontId, RichText, Ui};
 
 use super::hold::Hold;
+use crate::shared::truth_title;
 use inspection::pipeline::{Rejection, Verdict, is_like, live::MotionState};
 use records::history::StoredVerdict;
 use shell::{
     inspection::inspected::Inspected,
     language::{accepted_or_not, is_called_by_name},
     session::Session,
-    truth_menu::truth_title,
 };
 use station::Doubt;
 use texts::Described as _;

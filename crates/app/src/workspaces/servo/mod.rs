@@ -23,8 +23,8 @@ pub use self::{
     state::ServoPageState,
     work::RunView,
 };
+use crate::shared::servo_curve;
 use shell::{
-    servo_curve,
     session::{Session, WorkspaceKind},
     workspace::{ShellContext, Workspace},
 };
@@ -87,7 +87,7 @@ impl Workspace for ServoWorkspace {
         let bottom = Panel::bottom("servo curve").exact_size(curve_height + 16.0);
         fixed_panel(ui, bottom, Margin::symmetric(8, 8), |ui| {
             let tolerance = state.tolerance(session);
-            servo_curve::ui(ui, state.curve(), tolerance, curve_height);
+            servo_curve(ui, state.curve(), tolerance, curve_height);
         });
         let room = ui.available_rect_before_wrap();
         CentralPanel::default()

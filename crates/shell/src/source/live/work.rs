@@ -99,7 +99,7 @@ pub(super) enum LiveRecord {
 }
 
 /// Maximum number of unread records, whose points and pictures take up to 15 MB each; the job waits beyond that.
-pub(super) const MAX_UNREAD: usize = 32;
+const MAX_UNREAD: usize = 32;
 
 fn send(recorder: &SyncSender<LiveRecord>, record: LiveRecord) {
     // Fails only if the window is gone.
