@@ -4,7 +4,6 @@ use std::path::PathBuf;
 
 use super::state::ViewPart;
 use crate::shots::{ShotsAction, ShotsFile};
-use robot::Convention;
 use shell::{
     action::Action,
     file_dialog::{FileChoice, FileRequest, program_files},
@@ -22,22 +21,14 @@ pub enum InspectAction {
     Colour(Colouring),
     /// Enlarge a stage to fill the middle; `None` shows the view again.
     Enlarge(Option<StagePanel>),
-    /// Show the part at this index of the frame.
-    SelectPart(usize),
     /// Show the part that many places further in the frame, in a circle.
     NextPart(isize),
     /// Compare contour and signature with the part at this index of the ranking.
     Candidate(usize),
-    /// Show, copy and write poses in this convention.
-    UseConvention(Convention),
     /// Copy the pose to the clipboard, in the chosen convention.
     CopyPose,
-    /// Go to Compare, to see why it was recognised as this part, or was not.
-    Compare,
     /// Make the scene in front the draft of Enrol, and go there.
     Enrol,
-    /// Start or stop recording the followed source.
-    ToggleRecording,
     /// An action of the shell.
     Act(Action),
     /// An action on the shots of the scan shown.

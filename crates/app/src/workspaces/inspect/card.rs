@@ -19,8 +19,8 @@ use shell::{
     cell::RobotAction,
     inspection::inspected::Inspected,
     language::{UnitSystem, recipe_label, traced},
-    session::{Session, UserRole},
-    source::live,
+    session::{Session, UserRole, WorkspaceKind},
+    source::live::{self, LiveAction},
     trace::{entry, expecting},
 };
 use stages::pose::PoseEstimate;
@@ -56,7 +56,8 @@ pub(super) fn ui(
     }
     expecting(ui, session, actions);
     if session.is_live() && live::card(ui, session) {
-        actions.push(InspectAction::ToggleRecording);
+        let toggle = Action::Live(LiveAction::ToggleRecording);
+        actions.push(InspectAction::Act(toggle));
     }
     let inspection = &inspected.inspection;
     // Without the part's name, the figures of its pose are of no use.
@@ -188,7 +189,11 @@ fn action_buttons(
             text!("inspect-export-says"),
             InspectAction::Ask(InspectFile::Report),
         ),
-        (why, why_says, InspectAction::Compare),
+        (
+            why,
+            why_says,
+            InspectAction::Act(Action::GoTo(WorkspaceKind::Compare)),
+        ),
         (
             text!("inspect-copy-pose"),
             text!("inspect-copy-pose-says"),

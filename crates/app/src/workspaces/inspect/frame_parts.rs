@@ -15,6 +15,7 @@ use super::{
 };
 use inspection::pipeline::{Inspection, Verdict};
 use shell::{
+    action::Action,
     inspection::inspected::Inspected,
     session::{Session, Shown},
 };
@@ -180,7 +181,7 @@ fn list(
             for row in rows {
                 let is_clicked = row.ui(ui, row.index == selected, fonts).clicked();
                 if is_clicked && row.headline.is_some() {
-                    actions.push(InspectAction::SelectPart(row.index));
+                    actions.push(InspectAction::Act(Action::SelectPart(row.index)));
                 }
             }
         });

@@ -5,7 +5,10 @@ use egui::{Align, Layout, RichText, Ui};
 use super::{action::InspectAction, hold::Hold};
 use geometry::rigid::RigidTransform;
 use robot::{Convention, RobotPose, RobotValue, Unit};
-use shell::{inspection::inspected::Inspected, language::convention_meaning, session::Session};
+use shell::{
+    action::Action, inspection::inspected::Inspected, language::convention_meaning,
+    session::Session,
+};
 use ui::{
     language::{described, text},
     theme::{Theme, font, space},
@@ -141,7 +144,7 @@ fn choice(ui: &mut Ui, chosen: Convention, actions: &mut Vec<InspectAction>) {
     })
     .on_hover_text(text!("inspect-convention-says"));
     if convention != chosen {
-        actions.push(InspectAction::UseConvention(convention));
+        actions.push(InspectAction::Act(Action::UseConvention(convention)));
     }
 }
 

@@ -21,7 +21,6 @@ use shell::{
     },
     notice::Notice,
     session::{ReinspectionPurpose, Session, Source, WorkspaceKind},
-    source::live::LiveAction,
     workspace::ShellContext,
 };
 use ui::{
@@ -177,7 +176,6 @@ impl InspectState {
             InspectAction::Colour(colouring) => self.colouring = Some(colouring),
             InspectAction::Enlarge(panel) => self.enlarged = panel,
             InspectAction::Candidate(place) => self.candidate = place,
-            InspectAction::SelectPart(index) => cx.send(Action::SelectPart(index)),
             InspectAction::NextPart(by) => {
                 if let Some(shown) = &cx.session.shown {
                     let index = shown.selected() as isize + by;
@@ -185,15 +183,8 @@ impl InspectState {
                     cx.send(Action::SelectPart(index as usize));
                 }
             }
-            InspectAction::UseConvention(convention) => {
-                cx.send(Action::UseConvention(convention));
-            }
             InspectAction::CopyPose => copy_pose(cx),
-            InspectAction::Compare => cx.send(Action::GoTo(WorkspaceKind::Compare)),
             InspectAction::Enrol => enrol_shown(cx),
-            InspectAction::ToggleRecording => {
-                cx.send(Action::Live(LiveAction::ToggleRecording));
-            }
             InspectAction::Act(action) => cx.send(action),
             InspectAction::Shots(action) => self.change_shots(action, cx),
             InspectAction::Ask(file) => {
