@@ -5,7 +5,6 @@
 
 mod action;
 mod case_bar;
-mod changes_list;
 pub mod comparison;
 mod distances;
 mod keeping;
@@ -22,7 +21,6 @@ mod schedule;
 mod score_plots;
 mod state;
 pub mod study;
-mod trial;
 mod work;
 
 use std::path::PathBuf;

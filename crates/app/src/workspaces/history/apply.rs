@@ -4,10 +4,9 @@ use std::{path::PathBuf, sync::Arc};
 
 use super::{
     action::{Direction, HistoryAction, HistoryFile, HistoryJob},
-    export,
     state::HistoryState,
     statistics::StatisticsView,
-    work::HistoryResult,
+    work::{self, HistoryResult},
 };
 use records::history::{HistoryEvent, NewEntry, PruneResult, SetAside};
 use shell::{
@@ -264,9 +263,9 @@ impl HistoryState {
         let are_runs = self.runs.is_some();
         self.exporting.start(title, move |_| {
             let written = if are_runs {
-                export::write_runs(&filter, &path, &keeper)?
+                work::write_runs(&filter, &path, &keeper)?
             } else {
-                export::write(&filter, file, &path, &keeper)?
+                work::write_inspections(&filter, file, &path, &keeper)?
             };
             Ok(Notice::done(written))
         });

@@ -7,8 +7,8 @@ use egui::{
 };
 use jiff::{Timestamp, tz::TimeZone};
 
-use super::{HistoryAction, HistoryState, bar, label::in_one_line};
-use crate::shared::truth_title;
+use super::{HistoryAction, HistoryState, bar};
+use crate::{shared::truth_title, workspaces::history::details::in_one_line};
 use records::history::Summary;
 use shell::{
     inspection::library_cache::LibraryView,

@@ -4,12 +4,8 @@ mod action;
 mod apply;
 mod bar;
 mod details;
-mod differences;
 mod drift;
-mod export;
 mod filter;
-mod keeping;
-mod label;
 mod list;
 mod reopen;
 mod servo_runs;
@@ -149,7 +145,7 @@ impl Workspace for HistoryWorkspace {
                     list.ui(ui, state, session, &mut actions);
                 }
             });
-        keeping::ui(ui.ctx(), state, &mut actions);
+        bar::retention_rule(ui.ctx(), state, &mut actions);
         for action in actions {
             self.apply(action, cx);
         }

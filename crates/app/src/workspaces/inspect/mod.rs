@@ -13,7 +13,6 @@ mod operator_words;
 mod plots;
 mod ranking;
 mod robot_numbers;
-mod stand_off;
 mod state;
 mod strip;
 #[cfg(test)]

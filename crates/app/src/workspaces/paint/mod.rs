@@ -11,7 +11,6 @@
 //! ```
 
 mod action;
-mod coats;
 mod course;
 mod design;
 mod reach;
