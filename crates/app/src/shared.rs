@@ -1,8 +1,9 @@
-//! What several workspaces draw: the menu of a scene's true label, and the curve of a run of visual servoing.
+//! What several workspaces draw: the frame of a side panel, the menu of a scene's true label, and the curve of a run of visual
+//! servoing.
 
 use std::collections::BTreeSet;
 
-use egui::{Rect, Sense, Ui, WidgetInfo, pos2, vec2};
+use egui::{Frame, Margin, Rect, Sense, Ui, WidgetInfo, pos2, vec2};
 
 use geometry::units::{Metres, Radians};
 use inspection::library::{PartMeta, Truth};
@@ -14,6 +15,16 @@ use ui::{
     theme::{Theme, space},
     widgets::menu_list,
 };
+
+/// The frame of a part of a side panel, with this room above and below what is in it, logical pixels.
+pub(crate) fn panel_frame(theme: &Theme, top: i8, bottom: i8) -> Frame {
+    Frame::new().fill(theme.panel).inner_margin(Margin {
+        left: 16,
+        right: 14,
+        top,
+        bottom,
+    })
+}
 
 /// Returns the title of a true label; `None` if it is not set.
 pub(crate) fn truth_title(truth: Option<&Truth>, library: &LibraryView) -> String {

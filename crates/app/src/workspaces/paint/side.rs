@@ -1,8 +1,8 @@
 //! On the right: the part, its coat with every parameter, the figures of the film, and what can be done with the path.
 
 use egui::{
-    Button, CentralPanel, Frame, Id, IntoAtoms, Label, Margin, Panel, Popup, Rect, Response,
-    RichText, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2,
+    Button, CentralPanel, Id, IntoAtoms, Label, Panel, Popup, Rect, Response, RichText, ScrollArea,
+    Sense, Ui, WidgetInfo, pos2, vec2,
 };
 
 use super::{
@@ -12,6 +12,7 @@ use super::{
     timeline::minutes,
     work::Planned,
 };
+use crate::shared::panel_frame;
 use ::robot::paint::{Coat, CoatGroup, FilmFigures, LEAST_WITHIN};
 use inspection::{
     library::Side,
@@ -38,14 +39,7 @@ pub(super) fn ui(
     actions: &mut Vec<PaintAction>,
 ) {
     let theme = Theme::of(ui);
-    let frame = |top, bottom| {
-        Frame::new().fill(theme.panel).inner_margin(Margin {
-            left: 16,
-            right: 14,
-            top,
-            bottom,
-        })
-    };
+    let frame = |top, bottom| panel_frame(theme, top, bottom);
     Panel::bottom("paint actions")
         .resizable(false)
         .frame(frame(8, 12))
