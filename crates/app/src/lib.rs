@@ -6,7 +6,8 @@
 //! ```
 //!
 //! [`workspaces`]: each owns its state, its panels and its tasks; the window knows it as a
-//! [`Workspace`](shell::workspace::Workspace), and none imports another. [`shots`] is the list that Inspect and Enrol share, `shared` what several draw.
+//! [`Workspace`](shell::workspace::Workspace), and none imports another. [`shots`] is the list that Inspect and Enrol share;
+//! `shared` is what several draw.
 //! The session and the bars around the workspaces are the crate `shell`; widgets, tasks and texts are the crate `ui`.
 //!
 //! Panels only draw the last result and never compute.

@@ -74,7 +74,8 @@ pub(crate) fn truth_entries(
     });
 }
 
-/// Draws what was left of the error over time, as shift and as angle: both halves, side by side in a wide place and one below the other in a narrow one.
+/// Draws what was left of the error over time, as shift and as angle: side by side in a wide place and one below the other in a
+/// narrow one.
 pub(crate) fn servo_curve(
     ui: &mut Ui,
     curve: &[ServoSample],

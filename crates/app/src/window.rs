@@ -207,7 +207,7 @@ impl Window {
             None if is_second && matches!(session.source, Source::Camera(_)) => None,
             None => Some(Action::Capture),
         };
-        window.state.load_library();
+        window.state.inspector.loader.load();
         // The first scene is inspected even if Enrol is in front; one that the user names is shown with its result.
         let front = std::mem::take(&mut window.state.session.workspace);
         window.state.inspector.is_start = true;

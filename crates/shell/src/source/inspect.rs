@@ -369,11 +369,6 @@ impl State {
         live::restart_consensus(self);
     }
 
-    /// Loads the library, independently of the workspace in front and of the first scene.
-    pub fn load_library(&mut self) {
-        self.inspector.loader.load();
-    }
-
     /// Uses this library, and reports its problems once.
     pub(crate) fn use_library(&mut self, library: &Arc<LibraryView>) {
         let is_other = |known: &Arc<_>| !Arc::ptr_eq(known, library);

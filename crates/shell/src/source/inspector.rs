@@ -250,7 +250,8 @@ impl LibraryLoader {
         self.loading.running().is_none() && self.reloading.running().is_none()
     }
 
-    pub(super) fn load(&mut self) {
+    /// Loads the library, independently of the workspace in front and of the first scene.
+    pub fn load(&mut self) {
         let library_cache = self.library_cache.clone();
         self.loading
             .start(text!("shell-loading-library"), move |_| {

@@ -38,7 +38,7 @@ pub(super) struct OrderTable {
 }
 
 /// The table, or why it cannot be read.
-type TableContent = Result<Arc<Orders>, Arc<OrdersError>>;
+pub(super) type TableContent = Result<Arc<Orders>, Arc<OrdersError>>;
 
 /// An action on what is expected.
 #[derive(Clone, Debug, PartialEq, Eq)]

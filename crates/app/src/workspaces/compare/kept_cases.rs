@@ -1,5 +1,5 @@
-//! The kept cases: a list before the first run, then the confusion matrix with its plots, the cases of one cell, or the changes since
-//! an earlier run.
+//! The kept cases: a list before the first run, then the confusion matrix with its plots, the cases of one cell, or the changes
+//! since an earlier run.
 
 use std::f32::consts::FRAC_PI_2;
 
