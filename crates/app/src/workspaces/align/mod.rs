@@ -7,7 +7,6 @@
 //! side      Table I, the true error                   table
 //! ```
 
-mod action;
 mod choosing;
 mod pair;
 mod playback;
@@ -24,11 +23,10 @@ mod work;
 use egui::{Key, Margin, Modifiers, Panel, Rect, Ui};
 
 pub use self::{
-    action::{AlignAction, AlignFile},
     pair::{Pair, PairSource},
     playback::MethodComparison,
     start::{CustomStart, Start},
-    state::{AlignResult, AlignState, Pairing},
+    state::{AlignAction, AlignFile, AlignResult, AlignState, Pairing},
     table::{TableCell, TableFigures, TableRow, TableShown},
     track::{MethodRun, Track},
 };

@@ -7,7 +7,6 @@ mod action;
 mod case_bar;
 pub mod comparison;
 mod distances;
-mod keeping;
 mod kept_cases;
 mod kept_recipes;
 pub mod matrix;

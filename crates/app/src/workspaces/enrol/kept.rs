@@ -269,11 +269,11 @@ mod tests {
 
     use super::*;
     use crate::workspaces::enrol::{
-        action::EnrolAction,
         draft::Field,
         outline::{DrawnOutline, DrawnOver},
         segments::PointAction,
         selection::{Edit, OutlineMode},
+        state::EnrolAction,
     };
     use shell::{
         inspection::source::{CellChoice, SceneOrScan, SceneSource},

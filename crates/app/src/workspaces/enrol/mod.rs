@@ -7,7 +7,6 @@
 //! change     a change of the library              undo, catalogue, card
 //! ```
 
-mod action;
 mod card;
 mod catalogue;
 pub mod change;
@@ -37,10 +36,7 @@ use egui::{
     vec2,
 };
 
-pub use self::{
-    action::{DraftPanes, EnrolAction, EnrolFile},
-    state::EnrolState,
-};
+pub use self::state::{DraftPanes, EnrolAction, EnrolFile, EnrolState};
 use self::{
     catalogue::Catalogue, draft::Draft, kept::DraftFile, picture::PicturePane,
     thumbnails::Thumbnails, view::DraftView,

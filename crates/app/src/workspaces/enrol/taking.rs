@@ -6,7 +6,6 @@ use std::{
 };
 
 use super::{
-    action::{EnrolAction, EnrolFile},
     draft::{Draft, Field},
     kept::KeptDraft,
     selection::{Corrections, Selection},
@@ -15,7 +14,10 @@ use super::{
     undo::{UndoStep, scene_in_front},
     work,
 };
-use crate::shots::{Asked, ShotsAction, ShotsFile, source_of};
+use crate::{
+    shots::{Asked, ShotsAction, ShotsFile, source_of},
+    workspaces::enrol::state::{EnrolAction, EnrolFile},
+};
 use shell::{
     action::Action,
     inspection::source::{Origin, ScanOrder, SceneOrScan, SceneSource},

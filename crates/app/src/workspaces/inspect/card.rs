@@ -8,11 +8,11 @@ use egui::{
 use crate::{
     shots::summary,
     workspaces::inspect::{
-        action::{InspectAction, InspectFile},
         frame_parts,
         headline::{self, Headline, HeadlineState},
         hold::{self, Hold},
         robot_numbers,
+        state::{InspectAction, InspectFile},
     },
 };
 use inspection::pipeline::{Rejection, Unrecognisable, Verdict};

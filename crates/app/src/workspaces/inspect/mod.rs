@@ -1,10 +1,8 @@
 //! Inspect, the operator's workspace: the view, the verdict and the stages.
 
-mod action;
 mod banner;
 mod card;
 mod controls;
-mod expectation;
 mod frame_parts;
 mod headline;
 mod hold;

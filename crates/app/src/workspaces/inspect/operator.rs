@@ -8,10 +8,10 @@ use egui::{
 };
 
 use super::{
-    action::InspectAction,
     banner::{Banner, Tone},
     frame_parts, hold,
 };
+use crate::workspaces::inspect::state::InspectAction;
 use records::history::StoredVerdict;
 use shell::{
     frame::bars::column_width,

@@ -2,7 +2,8 @@
 
 use egui::{Align, Layout, RichText, Ui};
 
-use super::{action::InspectAction, hold::Hold};
+use super::hold::Hold;
+use crate::workspaces::inspect::state::InspectAction;
 use geometry::rigid::RigidTransform;
 use robot::{Convention, RobotPose, RobotValue, Unit};
 use shell::{

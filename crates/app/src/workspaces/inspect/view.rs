@@ -5,13 +5,15 @@ use std::{collections::BTreeSet, sync::Arc};
 use egui::{Color32, Key, Modifiers, Painter, Rect, Ui, UiBuilder, Vec2, pos2, vec2};
 
 use super::{
-    action::InspectAction,
     controls,
     frame_parts::numbered,
     headline::{Headline, HeadlineState},
     state::{InspectState, ViewPart},
 };
-use crate::shots::{Overlay, POINT_SIZE};
+use crate::{
+    shots::{Overlay, POINT_SIZE},
+    workspaces::inspect::state::InspectAction,
+};
 use geometry::{oriented_box::OrientedBox, rigid::RigidTransform, units::Metres};
 use inspection::rack::Rack;
 use records::history::HungId;

@@ -2,7 +2,7 @@
 
 use std::mem;
 
-use crate::workspaces::paint::{action::ShownPath, state::PaintState};
+use crate::workspaces::paint::state::{PaintState, ShownPath};
 use inspection::{
     library::{FileCheck, PartName, SprayPath},
     pipeline::{RecipeFile, Replace, parameters::Parameter},

@@ -4,11 +4,11 @@
 use egui::{Button, DragValue, Key, Label, RichText, Role, Ui, WidgetInfo};
 
 use super::{
-    action::{PaintAction, PaintFile},
     reach::Reach,
     side::{TITLE, menu},
     state::PaintState,
 };
+use crate::workspaces::paint::state::{PaintAction, PaintFile};
 use inspection::pipeline::parameters::{Kind, Parameter, Parameters as _};
 use robot::{
     Convention,

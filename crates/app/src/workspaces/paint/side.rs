@@ -5,14 +5,11 @@ use egui::{
     Sense, Ui, WidgetInfo, pos2, vec2,
 };
 
-use super::{
-    action::{PaintAction, PaintFile, ShownPath},
-    robot,
-    state::PaintState,
-    timeline::minutes,
-    work::Planned,
+use super::{robot, state::PaintState, timeline::minutes, work::Planned};
+use crate::{
+    shared::panel_frame,
+    workspaces::paint::state::{PaintAction, PaintFile, ShownPath},
 };
-use crate::shared::panel_frame;
 use ::robot::paint::{Coat, CoatGroup, FilmFigures, LEAST_WITHIN};
 use inspection::{
     library::Side,

@@ -7,12 +7,11 @@ use glam::Vec3;
 use nalgebra::Vector3;
 
 use super::{
-    action::PaintAction,
-    course::GunState,
     region::{BRUSH, EditKind, PaintTool, RegionUse, at_depth_of, brushed, corners_of},
     state::PaintState,
     work::{MAGNIFIED, Planned, aim},
 };
+use crate::workspaces::paint::{state::PaintAction, work::GunState};
 use geometry::units::Metres;
 use inspection::library::PartName;
 use robot::paint::{KeepOut, PathEdit};

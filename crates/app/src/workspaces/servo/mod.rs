@@ -8,7 +8,6 @@
 //!
 //! While a robot is servoed, the space bar and Esc stop it before any control gets them.
 
-mod action;
 mod setup;
 mod side;
 mod state;
@@ -19,8 +18,7 @@ use egui::{CentralPanel, Event as InputEvent, Frame, Key, Margin, Modifiers, Pan
 
 use self::view::RunSceneView;
 pub use self::{
-    action::{ServoAction, ServoFile},
-    state::ServoPageState,
+    state::{ServoAction, ServoFile, ServoPageState},
     work::RunView,
 };
 use crate::shared::servo_curve;

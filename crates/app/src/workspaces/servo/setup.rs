@@ -2,10 +2,8 @@
 
 use egui::{Button, DragValue, Role, Ui, WidgetInfo, vec2};
 
-use super::{
-    action::{ServoAction, ServoFile},
-    state::chosen_part,
-};
+use super::state::chosen_part;
+use crate::workspaces::servo::state::{ServoAction, ServoFile};
 use geometry::oriented_box::OrientedBox;
 use records::history::ServoTargetKind;
 use servo::{ServoParams, simulated::StreamProtocol};

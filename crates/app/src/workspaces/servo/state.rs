@@ -1,17 +1,19 @@
-//! State of the workspace: the run that is shown, and the one that goes on.
+//! State of the workspace: the run that is shown, and the one that goes on; and the actions that change it.
 
-use std::sync::{Arc, atomic::Ordering};
-
-use super::{
-    action::{ServoAction, ServoFile},
-    work::{self, Orders, RealCell, RunRequest, RunView, not_calibrated},
+use std::{
+    path::PathBuf,
+    sync::{Arc, atomic::Ordering},
 };
+
+use crate::workspaces::servo::work::{self, Orders, RealCell, RunRequest, RunView, not_calibrated};
 use capture::SourceSpec;
+use files::SCENE_ENDINGS;
 use records::history::{ServoSample, ServoTargetKind};
 use servo::{ServoState, simulated::StreamProtocol};
 use shell::{
     action::Action,
-    file_dialog::FileDialog,
+    cell::ServoSettings,
+    file_dialog::{FileChoice, FileDialog, FileRequest, all_files},
     notice::Notice,
     session::{Session, WorkspaceKind},
     workspace::ShellContext,
@@ -249,4 +251,42 @@ pub(super) fn ready(session: &Session) -> Result<(String, Option<RealCell>), Use
         calibration,
     };
     Ok((part.to_owned(), Some(cell)))
+}
+
+/// An action in the workspace.
+#[derive(Clone, Debug)]
+pub enum ServoAction {
+    /// Use these settings.
+    SetUp(ServoSettings),
+    /// Ask for a file.
+    Ask(ServoFile),
+    /// Add a frame of the target.
+    SeeAs(PathBuf),
+    /// Go where arm, nozzle and least distance are set.
+    GoToRobot,
+    /// Servo the robot.
+    Start,
+    /// Stop the robot.
+    Stop,
+    /// Allow the step that waits.
+    Next,
+}
+
+/// A file that a person is asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ServoFile {
+    /// A frame of the part, taken where the camera should stand.
+    SeenAs,
+}
+
+impl ServoFile {
+    pub(super) fn request(self) -> FileRequest {
+        match self {
+            Self::SeenAs => FileRequest {
+                title: text!("servoing-frame-title"),
+                filters: vec![(text!("shell-captured-scenes"), SCENE_ENDINGS), all_files()],
+                choice: FileChoice::File,
+            },
+        }
+    }
 }
