@@ -69,10 +69,7 @@ fn record(
             None => return Ok(ControlFlow::Continue(())),
             Some(FeedItem::Captured(captured)) => captured,
             Some(FeedItem::Skipped(skipped)) => {
-                console.warn(
-                    &format_args!("{}: {}", skipped.name, skipped.error),
-                    &*skipped.error,
-                );
+                console.warn(&skipped, &*skipped.error);
                 outcome = Outcome::CouldNotRun;
                 return Ok(ControlFlow::Continue(()));
             }

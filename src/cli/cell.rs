@@ -35,7 +35,7 @@ Examples:
   partsight cell check morning.pcd --json
   partsight cell list --csv drift.csv
 
-Any rigid thing with edges in all directions serves as the part; it need not be enrolled. Wall and floor tell whether the
+Any rigid thing with edges in all directions serves as the part; it need not be enrolled. Wall and floor tell whether the \
 camera moved or the part hangs elsewhere: leave some of them in the picture.
 Exit codes of check: 0 in place, 1 something moved or the readings are noisier, 2 the comparison was not possible.")]
 pub(super) struct CellArgs {
@@ -309,8 +309,7 @@ fn views(args: &Views, console: &mut Console) -> anyhow::Result<CellViews> {
                 None => return Ok(ControlFlow::Continue(())),
                 Some(FeedItem::Captured(captured)) => captured,
                 Some(FeedItem::Skipped(skipped)) => {
-                    let what = format_args!("{}: {}", skipped.name, skipped.error);
-                    console.warn(&what, &*skipped.error);
+                    console.warn(&skipped, &*skipped.error);
                     return Ok(ControlFlow::Continue(()));
                 }
             };

@@ -30,12 +30,12 @@ Examples:
   partsight evaluate tried --against monday.json
   partsight evaluate tried --threads 1        # for times that nothing else disturbs
 
-A folder of cases holds a folder for each, with case.toml (what it truly is, how hard it is, where it hangs) and
-scene.pcd; the window keeps such cases in Compare. With --pose icp, icp-ga or global the pose is measured too where the
+A folder of cases holds a folder for each, with case.toml (what it truly is, how hard it is, where it hangs) and \
+scene.pcd; the window keeps such cases in Compare. With --pose icp, icp-ga or global the pose is measured too where the \
 true one is known.
 
-Exit codes: 0 no false accepts, and nothing is worse than in the earlier run; 1 something was accepted wrongly, or is
-worse; 2 a case is damaged, or nothing could run. An enrolled part that is refused is counted, but is not a failure.
+Exit codes: 0 no false accepts, and nothing is worse than in the earlier run; 1 something was accepted wrongly, or is \
+worse; 2 a case is damaged, or nothing could run. An enrolled part that is refused is counted, but is not a failure. \
 Files are written at the end, in one piece: Ctrl-C leaves none.")]
 pub(super) struct EvaluateArgs {
     /// The folder of cases

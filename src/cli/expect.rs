@@ -1,6 +1,6 @@
 //! What should hang there, as command line options.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::{Args, builder::NonEmptyStringValueParser};
 
@@ -11,7 +11,10 @@ use inspection::{
     pipeline::{Expected, NamedRecipe},
     rack::Rack,
 };
-use records::{history::Traceability, orders::Orders};
+use records::{
+    history::Traceability,
+    orders::{Orders, OrdersFile},
+};
 
 /// What should hang there: parts by name, or those of an order.
 #[derive(Clone, Debug, Default, Args)]
@@ -21,9 +24,9 @@ pub(super) struct ExpectChoice {
     /// and what is missing is said
     #[arg(long, value_name = "[PLACE=]PART,...", value_delimiter = ',', value_parser = NonEmptyStringValueParser::new(), conflicts_with = "orders")]
     expect: Vec<String>,
-    /// Expect the parts of --order, or of --serial if the table has a row for it. The table is a CSV file with the columns
-    /// order, serial (may be empty) and parts, such as fender|grille or left hook=fender|right hook=grille. With serve, a
-    /// trigger may name its order, and the table is read again for each
+    /// Expect the parts of --order, or of --serial if the table has a row for it; with serve, also those of a trigger that
+    /// names its order or serial number (TRIGGER ORDER=4711 SERIAL=TL-0042). The table is a CSV file with the columns order,
+    /// serial (may be empty) and parts, such as fender|grille or left hook=fender|right hook=grille
     #[arg(long, value_name = "FILE")]
     orders: Option<PathBuf>,
 }
@@ -50,10 +53,12 @@ impl ExpectChoice {
     }
 
     /// The table of orders, if there is one, which can be read.
-    pub(super) fn orders(&self) -> anyhow::Result<Option<&Path>> {
-        let path = self.orders.as_deref();
-        path.map(Orders::read).transpose().advised()?;
-        Ok(path)
+    pub(super) fn orders(&self) -> anyhow::Result<Option<OrdersFile>> {
+        let mut file = self.orders.as_ref().map(OrdersFile::at);
+        if let Some(Err(error)) = file.as_mut().map(OrdersFile::table) {
+            return Err(advised_error(error.to_string(), error.advice()));
+        }
+        Ok(file)
     }
 
     fn given(

@@ -21,6 +21,7 @@ use super::{
     input::{Choice, choice, within},
     plant,
     record::HistoryChoice,
+    verdict::in_column,
 };
 use inspection::library::Truth;
 use records::history::{
@@ -28,7 +29,6 @@ use records::history::{
     Summary, Traceability, VerdictFilter,
 };
 use stages::reference::ReferenceParams;
-use texts::Message;
 
 /// List, show and export past inspections, made here or in the window
 #[derive(Debug, Args)]
@@ -117,7 +117,13 @@ pub(super) struct FilterArgs {
     /// In the rack of this name
     #[arg(long, value_name = "NAME")]
     rack: Option<String>,
-    /// With these words in the name of part, scene, source or rack, in the remark or in the true label
+    /// Of this production order
+    #[arg(long, value_name = "TEXT")]
+    order: Option<String>,
+    /// With this serial number
+    #[arg(long, value_name = "TEXT")]
+    serial: Option<String>,
+    /// With these words in the name of part, scene, source or rack, in the remark, the true label or the traceability
     #[arg(long, value_name = "TEXT")]
     text: Option<String>,
     /// Only simulated inspections (true), or only those of a camera (false)
@@ -146,6 +152,8 @@ impl FilterArgs {
             verdict: self.verdict,
             is_simulated: self.simulated,
             rack: self.rack.clone(),
+            order: self.order.as_deref().map(Traceability::cleaned),
+            serial: self.serial.as_deref().map(Traceability::cleaned),
             with_below: self.reinspections,
             text: self.text.clone().unwrap_or_default(),
             ..Filter::default()
@@ -447,11 +455,10 @@ fn cells(row: &Summary) -> [String; 10] {
         row.number.to_string(),
         here(row.at),
         row.verdict.to_string().to_lowercase(),
-        match (&row.part, row.mirror_of()) {
-            (Some(part), _) => part.clone(),
-            (None, Some(part)) => Message::new("mirror-image").with("part", part).to_string(),
-            (None, None) => "-".into(),
-        },
+        in_column(
+            row.identification(),
+            row.part.as_deref().unwrap_or(&row.title),
+        ),
         row.score
             .map_or_else(|| "-".into(), |[score, _]| format!("{score:.2}")),
         match (row.parent, row.num_below) {

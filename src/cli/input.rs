@@ -27,31 +27,26 @@ use station::CameraScenes;
 use texts::Message;
 
 /// Why a command cannot use a file.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Advice)]
 pub enum InputError {
     #[error(transparent)]
+    #[advice(transparent)]
     File(#[from] FileError),
     #[error(transparent)]
+    #[advice(match _0 {
+        CaptureError::CaptureWithFaces { .. } => {
+            FileAdvice(&FileWarning::CaptureWithFaces.into()).advice()
+        }
+        other => other.advice(),
+    })]
     Capture(#[from] CaptureError),
     #[error("{}", no_area(path))]
+    #[advice(no_area(path).command_advice())]
     EmptyMesh { path: String },
 }
 
 fn no_area(path: &str) -> Message {
     Message::new("mesh-no-area").with("path", path)
-}
-
-impl Advice for InputError {
-    fn advice(&self) -> String {
-        match self {
-            Self::File(error) => error.advice(),
-            Self::Capture(CaptureError::CaptureWithFaces { .. }) => {
-                FileAdvice(&FileWarning::CaptureWithFaces.into()).advice()
-            }
-            Self::Capture(error) => error.advice(),
-            Self::EmptyMesh { path } => no_area(path).command_advice(),
-        }
-    }
 }
 
 /// A value of an option: its name, its line in `--help`, and what it stands for.
@@ -218,7 +213,7 @@ impl EmptyCellChoice {
         for warning in &warnings {
             console.warn(warning, &FileAdvice(warning));
         }
-        Ok(Some(Arc::new(EmptyCell::of(&scene).advised()?)))
+        Ok(Some(Arc::new(EmptyCell::from_scene(&scene).advised()?)))
     }
 }
 

@@ -58,25 +58,25 @@ Examples:
   partsight inspect --source watch:/mnt/scanner --json
   partsight inspect --source kinect --line line.toml
 
-Files: PCD, PLY, XYZ or CSV text, or a 16-bit depth PNG with its intrinsics in a JSON beside it.
-Clouds are in metres, unless --units says otherwise. The JSON has width, height, fx, fy, cx, cy and metres_per_unit, and
-may have k1 k2 p1 p2 k3 k4 k5 k6 (OpenCV's lens distortion), \"mirrored\": true (left and right are swapped in the image)
+Files: PCD, PLY, XYZ or CSV text, or a 16-bit depth PNG with its intrinsics in a JSON beside it. \
+Clouds are in metres, unless --units says otherwise. The JSON has width, height, fx, fy, cx, cy and metres_per_unit, and \
+may have k1 k2 p1 p2 k3 k4 k5 k6 (OpenCV's lens distortion), \"mirrored\": true (left and right are swapped in the image) \
 and \"rotated\": 90, 180 or 270 (degrees clockwise to turn the image by). All of these refer to the image as it is stored.
 Exit codes: 0 every input accepted, 1 something was not accepted, 2 something could not be read.
-A robot must not act on an old capture, an ambiguous pose or a scan that contradicts itself: there is no pose for it then, and
-robot_doubts in the JSON says why. --force gives it nevertheless, of files and scans, with its doubts.
-If the library is empty or cannot be loaded, nothing is inspected: one error, no line of JSON, exit code 2.
-With --source: follows a camera, a recording or a folder until it ends, until --frames were inspected, or until Ctrl-C.
-A live camera gives its newest frame, and those in between are dropped; every frame of a recording or folder is inspected.
-A frame of a part that moves is not accepted. At the start of a source, a frame is shown up to 0.9 s later, once another
-one shows whether its part hangs still. With --line, parts pass without a stop: a part is accepted once several frames show it
+A robot must not act on an old capture, an ambiguous pose or a scan that contradicts itself: there is no pose for it then, and \
+robot_doubts in the JSON says why. --force gives it nevertheless, of files and scans, with its doubts. \
+If the library is empty or cannot be loaded, nothing is inspected: one error, no line of JSON, exit code 2. \
+With --source: follows a camera, a recording or a folder until it ends, until --frames were inspected, or until Ctrl-C. \
+A live camera gives its newest frame, and those in between are dropped; every frame of a recording or folder is inspected. \
+A frame of a part that moves is not accepted. At the start of a source, a frame is shown up to 0.9 s later, once another \
+one shows whether its part hangs still. With --line, parts pass without a stop: a part is accepted once several frames show it \
 where the line carried it, and is recorded once.
 Exit codes as with files; 1 also if no frame came. Possible sources: partsight capture --help
-With --scan: one verdict on all frames together; partsight help scan explains how to give their poses. camera_from_part
-is then the pose in the camera's frame of the first used shot, and base_from_part the pose in the robot's base frame.
-Every inspection is written to the history (partsight history --help) after its verdict is shown; if that fails, there is
-a warning, and the exit code stays the same. A followed source gives one inspection for each part that hung there: the
-verdict that the frames agree on once it hangs still. Each file, and each capture of a watched folder or of a folder of
+With --scan: one verdict on all frames together; partsight help scan explains how to give their poses. camera_from_part \
+is then the pose in the camera's frame of the first used shot, and base_from_part the pose in the robot's base frame. \
+Every inspection is written to the history (partsight history --help) after its verdict is shown; if that fails, there is \
+a warning, and the exit code stays the same. A followed source gives one inspection for each part that hung there: the \
+verdict that the frames agree on once it hangs still. Each file, and each capture of a watched folder or of a folder of \
 single captures, counts as a part of its own.")]
 pub(super) struct InspectArgs {
     /// Captured scenes
@@ -215,7 +215,8 @@ fn inspect(
     if let Some(publisher) = one.publisher {
         publisher.end(console);
     }
-    if let Some(folder) = &args.report {
+    let is_reported = one.report.is_some_and(|folder| folder.has_reports());
+    if let Some(folder) = args.report.as_ref().filter(|_| is_reported) {
         console.note(&format_args!("The reports are in {}", folder.display()));
     }
     outcome

@@ -137,7 +137,7 @@ fn list(choice: &LibraryChoice, console: &mut Console) -> anyhow::Result<Outcome
         };
         table.row([
             name,
-            (numbers.of(&meta.name)).map_or_else(|| "-".into(), |number| number.to_string()),
+            (numbers.number_of(&meta.name)).map_or_else(|| "-".into(), |number| number.to_string()),
             meta.title.clone(),
             meta.enrolled.size_mm.map_or_else(|| "-".into(), in_words),
             meta.cloud.num_points.to_string(),
@@ -174,7 +174,7 @@ fn show(choice: &LibraryChoice, name: &PartName, console: &mut Console) -> anyho
             .map(PartName::to_string)
             .unwrap_or_default(),
     );
-    if let Some(number) = numbers.of(&meta.name) {
+    if let Some(number) = numbers.number_of(&meta.name) {
         row("number", format!("{number}, by which robots know it"));
     }
     row("title", meta.title);

@@ -101,7 +101,7 @@ impl NumbersChoice {
                 console.warn(&format_args!("robots get no path of {name}: {off}"), off);
             }
             NumberedPart {
-                number: number.or_else(|| stored.of(&meta.name)).unwrap_or(0),
+                number: number.or_else(|| stored.number_of(&meta.name)).unwrap_or(0),
                 path,
                 off,
                 is_simulated: meta.simulated,

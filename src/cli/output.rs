@@ -4,13 +4,10 @@ use std::path::PathBuf;
 
 use super::{
     console::Console,
-    verdict::{in_robot_words, place_of, show_card},
+    verdict::{accepted_or_not, in_column, in_robot_words, place_of, show_card},
 };
 use files::visible;
-use inspection::{
-    library::Library,
-    pipeline::{Inspection, Verdict},
-};
+use inspection::{library::Library, pipeline::Inspection};
 use station::Inspected;
 
 /// Form of the results.
@@ -105,7 +102,7 @@ impl Columns {
         let parts = library.references.iter().map(|r| r.name.chars().count());
         Self {
             scene: scenes.max().unwrap_or(0).max("SCENE".len()),
-            part: parts.max().unwrap_or(0).max("PART".len()),
+            part: parts.max().unwrap_or(0) + "nearest ".len(),
         }
     }
 
@@ -144,39 +141,24 @@ impl Columns {
     ) {
         let inspection = inspected.inspection;
         let time_ms = inspection.timings.total.as_secs_f64() * 1000.0;
-        let (part, verdict, figures) = match &inspection.verdict {
-            Verdict::Part {
-                part,
-                score,
-                margin,
-                rejected,
-                ..
-            } => {
-                let triple = |[a, b, c]: [f64; 3]| format!("{a:7.1} {b:7.1} {c:7.1}");
-                let is_named = inspection.verdict.is_named();
-                let (middle, turn) = place_of(inspection, library)
-                    .filter(|_| is_named)
-                    .map_or_else(Default::default, |(middle, turn)| {
-                        (triple(middle), triple(turn))
-                    });
-                let rms = match &inspection.pose {
-                    Some(Ok(pose)) if is_named => format!("{:.1}", pose.fit.rms_m * 1000.0),
-                    _ => String::new(),
-                };
-                let verdict = rejected.as_ref().map_or("accepted", |_| "NOT ACCEPTED");
-                let figures = format!(
-                    "{score:5.2} {margin:6.2}  {middle:>23}  {turn:>23}  {rms:>5} {time_ms:7.1}"
-                );
-                let part = if inspection.verdict.is_unknown() {
-                    "unknown"
-                } else {
-                    part.as_str()
-                };
-                (part, verdict, figures)
-            }
-            Verdict::NoPart(_) => ("-", "NOT ACCEPTED", String::new()),
-        };
-        self.row(scene, part, verdict, &figures, console);
+        let verdict = &inspection.verdict;
+        let figures = verdict.score().map_or_else(String::new, |[score, margin]| {
+            let triple = |[a, b, c]: [f64; 3]| format!("{a:7.1} {b:7.1} {c:7.1}");
+            let is_named = verdict.is_named();
+            let (middle, turn) = place_of(inspection, library)
+                .filter(|_| is_named)
+                .map_or_else(Default::default, |(middle, turn)| {
+                    (triple(middle), triple(turn))
+                });
+            let rms = match &inspection.pose {
+                Some(Ok(pose)) if is_named => format!("{:.1}", pose.fit.rms_m * 1000.0),
+                _ => String::new(),
+            };
+            format!("{score:5.2} {margin:6.2}  {middle:>23}  {turn:>23}  {rms:>5} {time_ms:7.1}")
+        });
+        let found = verdict.identification(&inspected.recipe.parameters.accept);
+        let part = in_column(found, verdict.guess().unwrap_or_default());
+        self.row(scene, &part, accepted_or_not(verdict), &figures, console);
         if let Some([why, what_to_do]) = inspection.verdict.complaint() {
             console.line(&format_args!("    why not  {why}"));
             console.line(&format_args!("    to do    {what_to_do}"));

@@ -18,7 +18,7 @@ use inspection::{
     rack::{MaxTurn, RackError, RackFile, RackFrame, ambiguity},
 };
 use robot::RobotFrame;
-use stages::{reference::Reference, segment::MAX_PARTS};
+use stages::segment::MAX_PARTS;
 
 /// Where parts may hang.
 #[derive(Clone, Debug, Default, Args)]
@@ -62,9 +62,9 @@ Examples:
   partsight rack show rack_a.toml
   partsight inspect next.pcd --rack rack_a.toml
 
-The file is text (docs/guide/racks.md). Nothing outside its boxes of volume is looked at; a part that hangs at none of its
-places, at the place of another or in an orientation that is not allowed is not accepted. Of two poses of a symmetric part, the
-allowed one is found. Coordinates are in the camera's frame or, with --base, in the robot's base frame, which takes a
+The file is text (docs/guide/racks.md). Nothing outside its boxes of volume is looked at; a part that hangs at none of its \
+places, at the place of another or in an orientation that is not allowed is not accepted. Of two poses of a symmetric part, the \
+allowed one is found. Coordinates are in the camera's frame or, with --base, in the robot's base frame, which takes a \
 calibration.")]
 pub(super) struct RackArgs {
     #[command(subcommand)]
@@ -176,7 +176,7 @@ fn add(args: &AddArgs, console: &mut Console) -> anyhow::Result<Outcome> {
         // Never that of another place, which would move.
         let numbered = args.each.then(|| file.new_place_name());
         if let Some(place) = args.place.as_deref().or(numbered.as_deref()) {
-            let middle = (part.best_reference(&load.library)).and_then(Reference::middle);
+            let middle = part.middle(&load.library);
             if let Some(warning) = ambiguity(part) {
                 console.advise(
                     &format_args!("warning: {name}: {warning}"),

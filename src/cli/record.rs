@@ -11,7 +11,8 @@ use super::{
 use inspection::library::LibraryLoad;
 use records::{
     history::{
-        HistoryError, HistoryEvent, HungId, NewEntry, ServoRecord, Traceability, users_folder,
+        HistoryError, HistoryEvent, HungId, NewEntry, ServoRecord, TraceChange, Traceability,
+        users_folder,
     },
     report::segmentation_picture,
 };
@@ -147,6 +148,11 @@ impl HistoryRecorder {
         self.tell(console);
     }
 
+    /// Sets the traceability of a part that was recorded before it was known.
+    pub(super) fn trace(&self, hung: HungId, trace: Traceability) {
+        self.recorder.trace(hung, TraceChange::Set(trace));
+    }
+
     /// Adds a run of servoing.
     pub(super) fn add_servo_run(&self, record: ServoRecord) {
         self.recorder.add_servo_run(record);
@@ -229,7 +235,8 @@ fn tell_of(news: HistoryEvent, console: &Console) {
                 console.note(&line);
             }
         }
-        HistoryEvent::NotChanged { what, advice } => {
+        HistoryEvent::NotChanged { what, advice }
+        | HistoryEvent::FramesNotKept { what, advice } => {
             console.advise(&format_args!("warning: {what}"), &advice);
         }
         HistoryEvent::Swept(swept) if swept.num_frames > USUALLY_SWEPT => {

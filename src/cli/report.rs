@@ -35,7 +35,6 @@ use records::{
 };
 use robot::{Convention, RobotFrame};
 use stages::{
-    reference::Reference,
     scene::{EmptyCell, SceneCloud},
     stand_off::stand_off,
 };
@@ -53,8 +52,8 @@ Examples:
   partsight report --conventions
   partsight report --schema > pose-report.schema.json
 
-Writes FILE.pose.json and FILE.pose.pdf for each file; of several parts of a frame FILE_1, FILE_2 and so on. csv appends a row for
-each part to poses.CONVENTION.csv. A part that is not
+Writes FILE.pose.json and FILE.pose.pdf for each file; of several parts of a frame FILE_1, FILE_2 and so on. csv appends a row for \
+each part to poses.CONVENTION.csv. A part that is not \
 accepted, or about which there are doubts, is reported too, without numbers that a robot could move by.
 Files: PCD, PLY, XYZ or CSV text, or a 16-bit depth PNG with its intrinsics in a JSON beside it; metres.
 Exit codes: 0 every input accepted, 1 something was not accepted, 2 something could not be read or written.")]
@@ -248,7 +247,11 @@ impl Reporter<'_> {
             on_line: None,
         });
         let of_part = of_part.as_deref().unwrap_or(path);
-        let written = self.write(of_part, scene, inspection, &report, console)?;
+        let mut files = Vec::new();
+        let written = self.write(of_part, scene, inspection, &report, &mut files, console);
+        if files.is_empty() {
+            return written;
+        }
         let verdict = &report.verdict;
         let part = verdict.part.as_deref().unwrap_or(verdict.status);
         let accepted = if verdict.accepted {
@@ -257,15 +260,15 @@ impl Reporter<'_> {
             "NOT ACCEPTED"
         };
         let name = path.display();
-        let written: Vec<String> = written
+        let files: Vec<String> = files
             .iter()
             .map(|path| path.display().to_string())
             .collect();
         console.line(&format_args!(
             "{name}: {part}, {accepted}: {}",
-            written.join(", ")
+            files.join(", ")
         ));
-        Ok(())
+        written
     }
 
     fn report_of(&self, inspected: &Inspected<'_>) -> PoseReport {
@@ -289,7 +292,7 @@ impl Reporter<'_> {
             },
             trace: &self.trace,
             inspection,
-            middle: reference.and_then(Reference::middle),
+            middle: inspection.middle(&self.load.library),
             stand_off: stand_off.as_ref(),
             recipe: &self.recipe,
             library_identity: &self.library_identity,
@@ -301,15 +304,16 @@ impl Reporter<'_> {
         })
     }
 
-    /// Writes all formats, and returns the files.
+    /// Writes all formats, and adds the files that are written.
     fn write(
         &mut self,
         path: &Path,
         scene: &SceneCloud,
         inspection: &Inspection,
         report: &PoseReport,
+        written: &mut Vec<PathBuf>,
         console: &Console,
-    ) -> anyhow::Result<Vec<PathBuf>> {
+    ) -> anyhow::Result<()> {
         let asked = |format| self.args.format.contains(&format);
         let mut files = Vec::new();
         if asked(Format::Json) {
@@ -325,19 +329,23 @@ impl Reporter<'_> {
             };
             files.push(("pdf", pose_pdf(report, &pictures)));
         }
-        let is_csv = asked(Format::Csv);
-        let mut written = self.folder.write_pose(path, &files).advised()?;
-        if is_csv {
-            let csv = self.folder.csv(self.args.convention);
-            if let Some(aside) = append_csv(&csv, report).advised()? {
-                console.note(&format_args!(
-                    "note: the last row of {} was incomplete; it was set aside in {}",
-                    csv.display(),
-                    aside.display()
-                ));
-            }
-            written.push(csv);
+        // The row first: it fits where a page does not.
+        let row = asked(Format::Csv).then(|| self.append_row(report, console));
+        let pages = self.folder.write_pose(path, &files, written).advised();
+        let row = row.transpose().map(|csv| written.extend(csv));
+        pages.and(row)
+    }
+
+    /// Appends the row of a report to the table, and returns its file.
+    fn append_row(&self, report: &PoseReport, console: &Console) -> anyhow::Result<PathBuf> {
+        let csv = self.folder.csv(self.args.convention);
+        if let Some(aside) = append_csv(&csv, report).advised()? {
+            console.note(&format_args!(
+                "note: the last row of {} was incomplete; it was set aside in {}",
+                csv.display(),
+                aside.display()
+            ));
         }
-        Ok(written)
+        Ok(csv)
     }
 }

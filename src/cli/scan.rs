@@ -54,11 +54,11 @@ Examples:
 Poses: a file such as
   {\"frames\": {\"a.png\": {\"world_from_camera\": [16 numbers of the 4x4 matrix, row by row, metres]},
               \"b.png\": {\"world_from_camera\": [...]}}}
-Where the robot gives the flange's pose, write base_from_flange instead; the hand-eye calibration then says where the
+Where the robot gives the flange's pose, write base_from_flange instead; the hand-eye calibration then says where the \
 camera sits. A recording made with partsight capture --robot-poses needs no such file.
-The poses may be off by some millimetres and tenths of a degree: they are refined against each other. A frame that does
+The poses may be off by some millimetres and tenths of a degree: they are refined against each other. A frame that does \
 not fit, or overlaps no other, is named and left out.
-The cloud is written in the robot's base frame, in metres, with normals. For each point, num_shots is the number of frames
+The cloud is written in the robot's base frame, in metres, with normals. For each point, num_shots is the number of frames \
 that saw it, bit k of seen_by is set if frame k did (seen_by_high for frames 32 and up), and part is 1 on the part.
 Exit codes: 0 every frame was used, 1 some were left out or no part was found, 2 it could not run.")]
 pub(super) struct ScanArgs {

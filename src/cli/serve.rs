@@ -4,7 +4,6 @@ mod session;
 
 use std::{
     net::{Ipv4Addr, SocketAddr, SocketAddrV4},
-    path::Path,
     sync::{
         Arc,
         mpsc::{self, Receiver},
@@ -59,20 +58,31 @@ Protocols, each on its own port; docs/guide/robots_that_ask.md describes them in
   binary, binary-be    frames of 256 bytes with a checksum, little- or big-endian, for PLCs
   eki                  XML for KUKA's option package Ethernet KRL; poses as kuka
   urscript             lists of numbers for Universal Robots; poses as universal-robots
-Requests: TRIGGER inspects a frame captured from then on (TRIGGER 3 5: these parts are expected), PART 2 answers with the
-second part of that frame, LAST repeats the first answer, STATUS gives the state of the camera, and PATH the points of the
-spray path of the part that the same client triggered, for where it hangs. SERVO 3 1450 -310 890 10 20 30 asks, for part 3
-with the flange at rest there, where the robot should go next until the part stands where it should (docs/guide/servo.md).
-A part that moves is refused with the reason moving: the scene must have been still for 0.9 s, and a second frame, 150 ms
+Requests:
+  TRIGGER              inspects a frame captured from then on; what should hang there is said by
+                       --expect, or by --orders and --order
+  TRIGGER 3 5          these parts should hang there
+  TRIGGER 1=3 2=5      the same at the first and the second place of the --rack
+  TRIGGER ORDER=4711 SERIAL=TL-0042
+                       the parts of this order in the table of --orders should hang there; one of
+                       order and serial number suffices
+  TRIGGER ENC=123456   gives the poses at this count of the encoder of the --line
+  PART 2               the second part of that frame
+  LAST                 the first answer again
+  STATUS               the state of the camera
+  PATH                 the points of the spray path of the part that the same client triggered, for
+                       where it hangs
+  SERVO 3 1450 -310 890 10 20 30
+                       where the robot, whose flange rests there, should go next until part 3 is
+                       where it should be (docs/guide/servo.md)
+
+A part that moves is refused with the reason moving: the scene must have been still for 0.9 s, and a second frame, 150 ms \
 later, must show the part in the same place.
-With --line, parts pass without a stop: each is followed and recorded once, and TRIGGER ENC=123456 answers with its pose at
-that count of the line's encoder.
-With --expect, or --orders and --order, a TRIGGER that names no parts expects those. TRIGGER 1=3 2=5 expects them at the first
-and the second place of the --rack.
-Every answer has a verdict, the age of its frame and a sequence number. Poses are given only for an accepted part whose
-frame is not older than --max-age. Triggers are answered in the order in which they come, each with a frame of its own.
+With --line, parts pass without a stop: each is followed and recorded once.
+Every answer has a verdict, the age of its frame and a sequence number. Poses are given only for an accepted part whose \
+frame is not older than --max-age. Triggers are answered in the order in which they come, each with a frame of its own. \
 Poses are in the robot's base frame, so a calibration is needed: partsight calibrate --help
-Every inspection is written to the history, one row for each part of a trigger's frame. Ctrl-C ends the service.
+Every inspection is written to the history, one row for each part of a trigger's frame. Ctrl-C ends the service. \
 Connections are neither encrypted nor authenticated. Without an address, only programs on this computer can connect.
 Exit codes: 0 ended by Ctrl-C, 2 could not run.")]
 pub(super) struct ServeArgs {
@@ -255,7 +265,7 @@ pub(super) fn run(args: &ServeArgs, console: &mut Console) -> anyhow::Result<Out
             kind: args.numbers.kind(),
         },
         servoing,
-        orders: orders.map(Path::to_owned),
+        orders,
         traced: trace.clone(),
         trace,
         scenes: CameraScenes::new(empty_cell),

@@ -38,7 +38,7 @@ Examples:
   partsight simulate --cases tried --part objects,empty --num 9 --clutter on-floor
   partsight simulate --cases booth --booth --num 80
 
-The same arguments give the same file. Cases are added to those already in the folder; their truth refers to the shipped
+The same arguments give the same file. Cases are added to those already in the folder; their truth refers to the shipped \
 parts, and partsight evaluate counts how often they are recognised.
 Only the left doors and the left fender are shipped: a right one is not recognised until it is enrolled.")]
 pub(super) struct SimulateArgs {

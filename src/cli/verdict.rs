@@ -8,17 +8,17 @@ use geometry::{
 };
 use inspection::{
     library::Library,
-    pipeline::{Inspection, Rejection, Verdict},
+    pipeline::{Identification, Inspection, Verdict},
 };
 use stages::pose::{Stopped, Uncertainty};
 use station::Inspected;
-use texts::Message;
+use texts::Language;
 
 /// Returns the part's position, the middle of its reference's extent (x, y, z in mm), and its rotation (rx, ry, rz in
 /// degrees).
 pub(super) fn place_of(inspection: &Inspection, library: &Library) -> Option<([f64; 3], [f64; 3])> {
     let pose = inspection.found_pose()?.camera_from_part();
-    let middle = pose * inspection.best_reference(library)?.middle()?;
+    let middle = pose * inspection.middle(library)?;
     // nalgebra's angles are those of Rz·Ry·Rx.
     let (rx, ry, rz) = pose.rotation.euler_angles();
     Some((
@@ -75,20 +75,34 @@ fn bounds_in_words(bounds: &Uncertainty) -> String {
     }
 }
 
-fn what_it_is(verdict: &Verdict, part: &str, rejected: Option<&Rejection>) -> String {
-    match rejected {
-        Some(Rejection::Mirrored { part, .. } | Rejection::MirroredImage { part, .. }) => {
-            Message::new("mirror-image")
-                .with("part", part.as_str())
-                .to_string()
-        }
-        Some(Rejection::OtherHalf { part, .. }) => {
-            format!("mirror image of the enrolled piece of {part}")
-        }
-        Some(Rejection::Unknown { .. }) if verdict.is_named() => format!("unknown, nearest {part}"),
-        Some(Rejection::Unknown { .. }) => "unknown".to_owned(),
-        _ => part.to_owned(),
+/// The verdict in the words of a card or a row.
+pub(super) fn accepted_or_not(verdict: &Verdict) -> &'static str {
+    if verdict.is_accepted() {
+        "accepted"
+    } else {
+        "NOT ACCEPTED"
     }
+}
+
+/// Says what hangs there, with the name of the best match.
+pub(super) fn what_hangs(found: Identification, part: &str) -> String {
+    let name = found.name(part, Language::English);
+    name.unwrap_or_else(|| match found {
+        Identification::NotRecognised => format!("not recognised, nearest {part}"),
+        Identification::Unknown { is_like: true } => format!("unknown, nearest {part}"),
+        Identification::NoPart => "none".to_owned(),
+        _ => "unknown".to_owned(),
+    })
+}
+
+/// Says what hangs there, in a column beside the verdict.
+pub(super) fn in_column(found: Identification, part: &str) -> String {
+    let name = found.name(part, Language::English);
+    name.unwrap_or_else(|| match found {
+        Identification::NoPart => "-".to_owned(),
+        found if found.names_nearest() => format!("nearest {part}"),
+        _ => "unknown".to_owned(),
+    })
 }
 
 /// Shows everything about one inspection, one line per item.
@@ -101,25 +115,17 @@ pub(super) fn show_card(
     let inspection = inspected.inspection;
     let mut line = |what: &str, text: String| console.entry(what, &text);
     line("scene", visible(scene).into_owned());
-    match &inspection.verdict {
-        Verdict::Part {
-            part,
-            score,
-            margin,
-            rejected,
-            ..
-        } => {
-            let verdict = rejected.as_ref().map_or("accepted", |_| "NOT ACCEPTED");
-            let part = what_it_is(&inspection.verdict, part, rejected.as_ref());
-            line("part", format!("{part}: {verdict}"));
-            let next = inspection.ranking.runner_up().map(|next| &next.part);
-            let next = next.filter(|_| !inspection.verdict.is_unknown());
-            let margin = next.map_or(String::new(), |next| {
-                format!(", margin {margin:.2} (the next part is {next})")
-            });
-            line("score", format!("{score:.2}{margin}"));
-        }
-        Verdict::NoPart(_) => line("part", "none: NOT ACCEPTED".to_owned()),
+    let verdict = &inspection.verdict;
+    let found = verdict.identification(&inspected.recipe.parameters.accept);
+    let part = what_hangs(found, verdict.guess().unwrap_or_default());
+    line("part", format!("{part}: {}", accepted_or_not(verdict)));
+    if let Some([score, margin]) = verdict.score() {
+        let next = inspection.ranking.runner_up().map(|next| &next.part);
+        let next = next.filter(|_| !verdict.is_unknown());
+        let margin = next.map_or(String::new(), |next| {
+            format!(", margin {margin:.2} (the next part is {next})")
+        });
+        line("score", format!("{score:.2}{margin}"));
     }
     let is_named = inspection.verdict.is_named();
     let place = place_of(inspection, library).filter(|_| is_named);
@@ -212,5 +218,39 @@ fn stopped_words(stopped: Stopped) -> &'static str {
         Stopped::BelowTarget => "below its target",
         Stopped::IterationLimit => "stopped at the iteration limit",
         Stopped::NoProgress => "stopped without progress",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_what_is_certainly_the_part_has_its_name_alone() {
+        let unknown = |is_like| Identification::Unknown { is_like };
+        for (found, words, column) in [
+            (Identification::Part, "fender", "fender"),
+            (
+                Identification::AnotherMake,
+                "fender, another make",
+                "fender, another make",
+            ),
+            (
+                Identification::OtherHalf,
+                "mirror image of the enrolled piece of fender",
+                "mirror image of the enrolled piece of fender",
+            ),
+            (
+                Identification::NotRecognised,
+                "not recognised, nearest fender",
+                "nearest fender",
+            ),
+            (unknown(true), "unknown, nearest fender", "nearest fender"),
+            (unknown(false), "unknown", "unknown"),
+            (Identification::NoPart, "none", "-"),
+        ] {
+            assert_eq!(what_hangs(found, "fender"), words);
+            assert_eq!(in_column(found, "fender"), column);
+        }
     }
 }

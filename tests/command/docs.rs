@@ -118,37 +118,3 @@ fn an_example_of_the_robot_s_guide_makes_the_files_that_it_reads_or_names_the_ex
     }
     assert!(num_read > 5, "{num_read} files");
 }
-
-/// Every Rust file of a folder and the folders in it.
-fn rust_files(folder: &Path, found: &mut Vec<PathBuf>) {
-    for entry in fs::read_dir(folder).expect("a folder") {
-        let path = entry.expect("an entry").path();
-        if path.is_dir() {
-            rust_files(&path, found);
-        } else if path.extension().is_some_and(|ending| ending == "rs") {
-            found.push(path);
-        }
-    }
-}
-
-/// Cargo.toml of the other crates switches doc tests off: starting them takes longer than the tests of some crates.
-#[test]
-fn only_the_library_has_examples_in_its_documentation() {
-    let mut files = Vec::new();
-    rust_files(
-        &Path::new(env!("CARGO_MANIFEST_DIR")).join("crates"),
-        &mut files,
-    );
-    assert!(files.len() > 100);
-    for file in files {
-        let text = fs::read_to_string(&file).expect("text");
-        let comments = text.lines().map(str::trim_start);
-        let comments = comments.filter(|line| line.starts_with("//!") || line.starts_with("///"));
-        let fences = comments.filter_map(|line| line[3..].trim().strip_prefix("```"));
-        // Every second one ends a block.
-        for language in fences.step_by(2) {
-            let is_text = ["text", "json", "toml", "csv"].contains(&language);
-            assert!(is_text, "{}: a block of {language:?}", file.display());
-        }
-    }
-}

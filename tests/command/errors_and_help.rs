@@ -64,7 +64,17 @@ fn help_shows_examples_and_exit_codes() {
     ] {
         let help = place.accepted(&[command, &["--help"]].concat());
         assert!(help.out.contains("Examples:\n  partsight "), "{command:?}");
+        // No line that goes on in the next one is broken before it is full.
+        let lines: Vec<&str> = help.out.lines().collect();
+        for pair in lines.windows(2) {
+            let next = pair[1].split(' ').next().unwrap_or_default();
+            let goes_on = !pair[0].starts_with(' ') && next.starts_with(char::is_lowercase);
+            let is_full = pair[0].chars().count() + next.chars().count() >= 100;
+            assert!(!goes_on || is_full, "{command:?}: {}", pair[0]);
+        }
     }
+    let help = place.accepted(&["serve", "--help"]).out;
+    assert_eq!(help.matches("ORDER=4711").count(), 2, "{help}");
     let help = place.accepted(&["inspect", "--help"]).out;
     assert!(
         help.contains("Exit codes") && help.contains("icp-ga"),

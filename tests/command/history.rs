@@ -2,7 +2,7 @@
 
 use std::{
     fs,
-    io::{self, Write as _},
+    io::{self, Seek as _, Write as _},
     path::{self, Path},
     process::Command,
     sync::Arc,
@@ -15,8 +15,8 @@ use partsight::{
     capture::{Captured, Image, Recorder},
     geometry::rigid::RigidTransform,
     history::{
-        Filter, History, HistoryBuffer, HistoryEvent, HungId, InspectionContext, KeepFrames,
-        NewEntry, Retention, SceneTitle,
+        Filter, FrameLoss, History, HistoryBuffer, HistoryEvent, HungId, InspectionContext,
+        KeepFrames, NewEntry, Retention, SceneTitle,
     },
     library::Library,
     pipeline::{self, NamedRecipe, Unwatched},
@@ -551,21 +551,66 @@ fn num_failures(news: &[HistoryEvent]) -> usize {
 /// Longer than the pause before the next attempt.
 const LATER: Duration = Duration::from_mins(5);
 
+/// Fills a disk with this file, and returns its size.
+fn fill(mut filling: &fs::File) -> u64 {
+    let full = (0..).find_map(|_| filling.write(&[1; 4096]).err());
+    assert_eq!(full.expect("full").kind(), io::ErrorKind::StorageFull);
+    filling.metadata().expect("read").len()
+}
+
 #[test]
-fn a_full_disk_is_said_once_and_inspections_are_kept_until_there_is_room() {
-    let Some(disk) = Disk::of_kilobytes(1500) else {
+fn on_a_disk_that_fills_first_frames_and_then_rows_are_no_longer_written_and_each_is_said_once() {
+    let Some(disk) = Disk::of_kilobytes(6000) else {
         return;
     };
     let keeper = HistoryBuffer::new(Some(disk.path().join("history")));
     let begun = Instant::now();
     keeper.open(begun);
-    let num = 25;
-    for (ticket, entry) in (0..num).zip(entries()) {
-        keeper.add(ticket, entry, begun);
+    let mut entries = (1..).zip(entries());
+    let mut add = |num| {
+        for (ticket, entry) in entries.by_ref().take(num) {
+            keeper.add(ticket, entry, begun);
+        }
+        keeper.take_news()
+    };
+    let record = |number| keeper.row(number).expect("asked").expect("there");
+    let is_full = |what: &str, advice: &str| what.contains("full") && advice.contains("room");
+    add(2);
+    let frame_bytes = record(1).summary.frame_bytes.expect("kept");
+    assert!(frame_bytes > 60_000, "{frame_bytes}");
+
+    let filling = fs::File::create(disk.path().join("filling")).expect("made");
+    let leave = |bytes: u64| {
+        (&filling).seek(io::SeekFrom::End(0)).expect("at its end");
+        let size = fill(&filling);
+        filling.set_len(size - bytes).expect("cut");
+    };
+    // There is room for rows, but for no frame.
+    leave(frame_bytes - 8192);
+    let news = add(1);
+    let is_told = |news: &&HistoryEvent| matches!(news, HistoryEvent::FramesNotKept { what, advice } if is_full(what, advice));
+    assert_eq!(news.iter().filter(is_told).count(), 1, "{news:?}");
+    assert_eq!((num_failures(&news), keeper.num_waiting()), (0, 0));
+    // There is room for a frame, but not for its row as well.
+    leave(frame_bytes + 8192);
+    let news = add(1);
+    assert_eq!(news.iter().filter(is_told).count(), 0, "{news:?}");
+    assert_eq!((num_failures(&news), keeper.num_waiting()), (0, 0));
+    for number in [3, 4] {
+        let detail = record(number).detail;
+        assert_eq!(
+            (detail.frame, detail.frame_loss),
+            (None, Some(FrameLoss::DiskFull))
+        );
     }
-    let news = keeper.take_news();
+
+    // There is room for nothing.
+    leave(0);
+    let num: u64 = 25;
+    let news = add(num as usize - 4);
     assert_eq!(num_failures(&news), 1, "{news:?}");
-    let full = |news: &HistoryEvent| matches!(news, HistoryEvent::Failed { what, advice } if what.contains("full") && advice.contains("room"));
+    assert_eq!(news.iter().filter(is_told).count(), 0, "{news:?}");
+    let full = |news: &HistoryEvent| matches!(news, HistoryEvent::Failed { what, advice } if is_full(what, advice));
     assert!(news.iter().any(full), "{news:?}");
     let page = keeper.page(&Filter::default(), 0, 100).expect("asked");
     assert_eq!(
@@ -613,8 +658,7 @@ fn on_a_full_disk_the_history_is_listed_and_exported_and_nothing_says_to_move_it
     }
     drop(history);
     let filling = fs::File::create(disk.path().join("filling")).expect("made");
-    let full = (0..).find_map(|_| (&filling).write(&[1; 4096]).err());
-    assert_eq!(full.expect("full").kind(), io::ErrorKind::StorageFull);
+    fill(&filling);
 
     let place = Workplace::new();
     let folder = disk.path().display().to_string();
@@ -753,6 +797,20 @@ fn serial_number_order_and_operator_stand_in_history_table_and_report() {
         (&lines[0]["serial"], &lines[0]["order"]),
         (&"TL-4711".into(), &"A 17".into())
     );
+    for (options, expected) in [
+        (&["--serial", "TL-4711"][..], &[1][..]),
+        (&["--serial", "tl-4711"], &[]),
+        (&["--order", " B 2 "], &[2]),
+        (&["--order", "B"], &[]),
+        (&["--order", "B 2", "--serial", "TL-4711"], &[]),
+    ] {
+        let list = ["history", "list", "--json"];
+        let lines = place.accepted(&[&list[..], options].concat()).lines();
+        let numbers: Vec<i64> = (lines.iter())
+            .filter_map(|line| line["number"].as_i64())
+            .collect();
+        assert_eq!(numbers, expected, "{options:?}");
+    }
     let shown = place.accepted(&["history", "show", "2"]).out;
     assert!(
         shown.contains("B 2") && !shown.contains("serial"),

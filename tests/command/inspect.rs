@@ -371,6 +371,10 @@ fn the_history_lists_what_hung_in_a_rack_by_its_name() {
     let library = ["--library", "parts", "--history", "history"];
     let add = ["rack", "add", "left.toml", "both.png", "--each"];
     place.accepted(&[&add[..], &library[..2]].concat());
+    let rack = place.read("left.toml");
+    let renamed = rack.replacen("name = \"1\"", "name = \"front hook\"", 1);
+    assert_ne!(renamed, rack);
+    place.write("left.toml", &renamed);
     let inspect = ["inspect", "both.png"];
     place.accepted(&[&inspect[..], &library, &["--rack", "left.toml"]].concat());
     place.accepted(&[&inspect[..], &library].concat());
@@ -389,6 +393,15 @@ fn the_history_lists_what_hung_in_a_rack_by_its_name() {
         let in_rack = rows.iter().filter(|row| row["rack"] == "left").count();
         assert_eq!(in_rack, 2.min(num), "{options:?}: {rows:?}");
     }
+    let export = ["history", "export", "--history", "history"];
+    place.accepted(&[&export[..], &["--csv", "all.csv"]].concat());
+    let table = place.read("all.csv");
+    let columns = ["place", "place_number"].map(|column| csv_column(&table, column));
+    let mut places: Vec<[&str; 2]> = (columns[0].iter().zip(&columns[1]))
+        .map(|(name, number)| [name.as_str(), number.as_str()])
+        .collect();
+    places.sort_unstable();
+    assert_eq!(places, [["", ""], ["2", "2"], ["front hook", "1"]]);
 }
 
 #[test]
@@ -692,6 +705,16 @@ fn a_report_holds_the_line_and_a_picture_of_every_stage() {
         "fender.pcd",
     ];
     assert_eq!(place.run(&nowhere).code, 2);
+    // Where nothing could be written, no reports are said to be.
+    fs::create_dir_all(place.path("taken/fender.report.json")).expect("made");
+    let inspect = ["inspect", "fender.pcd", "--library", "parts"];
+    let ran = place.run(&[&inspect[..], &["--report", "taken"]].concat());
+    assert_eq!(ran.code, 2);
+    assert!(
+        ran.err.contains("fender.report.json") && !ran.err.contains("The reports are in"),
+        "{}",
+        ran.err
+    );
 }
 
 #[test]

@@ -57,8 +57,8 @@ impl Display {
     /// The present picture of the screen, from the X window dump that Xvfb keeps.
     fn picture(&self) -> RgbImage {
         let bytes = fs::read(&self.frame_buffer).expect("the frame buffer");
-        let field = |place: usize| {
-            let bytes = bytes[place * 4..place * 4 + 4].try_into();
+        let field = |index: usize| {
+            let bytes = bytes[index * 4..index * 4 + 4].try_into();
             u32::from_be_bytes(bytes.expect("four bytes")) as usize
         };
         let (header, width, height) = (field(0), field(4), field(5));

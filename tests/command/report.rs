@@ -74,6 +74,24 @@ fn each_of_several_parts_has_a_report() {
         .find(|path| path.extension() == Some("csv".as_ref()));
     let rows = fs::read_to_string(csv.expect("rows")).expect("text");
     assert_eq!(rows.lines().count(), 4, "{rows}");
+    // What does not fit costs neither the row nor what was written before it, and nothing else is said to be written.
+    fs::create_dir_all(place.path("some/rack.pose.pdf")).expect("made");
+    let report_all = ["report", "rack.png", "--format", "json,csv,pdf", "--out"];
+    let ran = place.run(&[&report_all[..], &["some"]].concat());
+    assert_eq!(ran.code, 2, "{}", ran.err);
+    assert!(ran.err.contains("rack.pose.pdf"), "{}", ran.err);
+    let is_told = |file: &str| ran.out.contains(file);
+    assert!(
+        is_told("rack.pose.json") && is_told("poses.matrix.csv") && !is_told(".pdf"),
+        "{}",
+        ran.out
+    );
+    let rows = place.read("some/poses.matrix.csv");
+    assert_eq!(rows.lines().count(), 2, "{rows}");
+    fs::create_dir_all(place.path("none/rack.pose.json")).expect("made");
+    let report_json = ["report", "rack.png", "--format", "json", "--out"];
+    let ran = place.run(&[&report_json[..], &["none"]].concat());
+    assert_eq!((ran.code, &*ran.out), (2, ""), "{}", ran.err);
     // Of one part, the report has the name of the file.
     place.accepted(&[&report[..], &["one"]].concat());
     assert!(place.path("one/rack.pose.json").exists());

@@ -409,7 +409,7 @@ fn a_camera_that_moves_before_a_part_is_never_told_as_a_part_that_moved() {
         .frames
         .iter()
         .filter_map(|(file, frame)| {
-            let view = CellView::of(&scene(&booth.join(file)), &SegmentParams::default());
+            let view = CellView::from_scene(&scene(&booth.join(file)), &SegmentParams::default());
             Some((frame, view.ok()?))
         })
         .collect();

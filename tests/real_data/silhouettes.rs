@@ -223,10 +223,10 @@ fn other_shapes_of_a_class_rank_their_class_among_the_first() {
             signature: &signature,
         };
         let ranking = rank(&query, &references, &params);
-        let place = ranking.entries.iter().position(|e| e.part == shape.class);
+        let index = ranking.entries.iter().position(|e| e.part == shape.class);
         num += 1;
-        first += usize::from(place == Some(0));
-        among_five += usize::from(place.is_some_and(|place| place < 5));
+        first += usize::from(index == Some(0));
+        among_five += usize::from(index.is_some_and(|index| index < 5));
     }
     // The enrolled shapes themselves rank first and are not counted.
     let own = references.len();

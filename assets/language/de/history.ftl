@@ -59,6 +59,7 @@ history-figure-frame = Bild
 history-figure-verdict = Ergebnis
 history-figure-nearest = am nächsten
 history-frame-not-kept = nicht aufbewahrt
+history-frame-lost = fehlt: { $why }
 history-frame-kept = aufbewahrt, { $megabytes } MB
 history-rz = rz, aus Rz·Ry·Rx
 history-stage-segment = Segmentierung

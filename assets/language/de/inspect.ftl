@@ -2,8 +2,6 @@
 
 ## The verdict
 
-inspect-another-make = { $part }, anderes Fabrikat
-inspect-another-model = { $part }, anderes Modell
 inspect-unknown-part = Unbekanntes Teil
 inspect-not-recognised = Nicht erkannt
 inspect-no-verdict = Kein Ergebnis

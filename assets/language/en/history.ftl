@@ -59,6 +59,7 @@ history-figure-frame = frame
 history-figure-verdict = verdict
 history-figure-nearest = nearest
 history-frame-not-kept = not kept
+history-frame-lost = not kept: { $why }
 history-frame-kept = kept, { $megabytes } MB
 history-rz = rz, of Rz·Ry·Rx
 history-stage-segment = segment

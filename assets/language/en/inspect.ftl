@@ -2,8 +2,6 @@
 
 ## The verdict
 
-inspect-another-make = { $part }, another make
-inspect-another-model = { $part }, another model
 inspect-unknown-part = Unknown part
 inspect-not-recognised = Not recognised
 inspect-no-verdict = No verdict

@@ -59,6 +59,7 @@ history-figure-frame = imagen
 history-figure-verdict = resultado
 history-figure-nearest = parecida a
 history-frame-not-kept = no conservada
+history-frame-lost = falta: { $why }
 history-frame-kept = conservada, { $megabytes } MB
 history-rz = rz, de Rz·Ry·Rx
 history-stage-segment = segmentación

@@ -2,8 +2,6 @@
 
 ## The verdict
 
-inspect-another-make = { $part }, otra marca
-inspect-another-model = { $part }, otro modelo
 inspect-unknown-part = Pieza desconocida
 inspect-not-recognised = No reconocida
 inspect-no-verdict = Sin resultado

@@ -58,6 +58,7 @@ history-figure-frame = 深度帧
 history-figure-verdict = 判定
 history-figure-nearest = 最接近
 history-frame-not-kept = 未保留
+history-frame-lost = 未保留：{ $why }
 history-frame-kept = 已保留，{ $megabytes } MB
 history-rz = rz（Rz·Ry·Rx）
 history-stage-segment = 分割

@@ -2,8 +2,6 @@
 
 ## The verdict
 
-inspect-another-make = { $part }（其他品牌）
-inspect-another-model = { $part }（其他型号）
 inspect-unknown-part = 未知零件
 inspect-not-recognised = 未识别
 inspect-no-verdict = 无判定

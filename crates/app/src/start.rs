@@ -18,54 +18,37 @@ use ui::{
 };
 
 /// Why the window could not be opened or stayed closed.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Advice)]
 pub enum WindowError {
     /// No desktop to open a window on.
     #[error("there is no display to open a window on")]
+    #[advice = "Start Partsight from a desktop session, or over SSH with ssh -X; neither DISPLAY nor WAYLAND_DISPLAY is set"]
     NoDisplay,
     /// The desktop refused to open the window.
     #[error("the window could not be opened ({reason})")]
+    #[advice = "Check that DISPLAY or WAYLAND_DISPLAY names a running desktop, and that the package libxkbcommon-x11-0 is installed"]
     Refused {
         /// Message of the system.
         reason: String,
     },
     /// The graphics device was lost while the window was open.
     #[error("the graphics device was lost while the window was open ({reason})")]
+    #[advice = "Start Partsight again; no enrolled part and no written file is lost"]
     DeviceLost {
         /// Message of the system.
         reason: String,
     },
     /// No graphics driver can draw the window.
     #[error("there is no graphics driver that can draw the window ({reason})")]
+    #[advice(if cfg!(windows) {
+        "Install the driver of the graphics card from its maker. If it has one, set the environment variable WGPU_BACKEND to vulkan or gl and start Partsight again"
+    } else {
+        "Install a Vulkan driver: on Debian and Ubuntu the package mesa-vulkan-drivers"
+    })]
     NoAdapter {
         /// Message of the system.
         reason: String,
     },
-}
-
-impl Advice for WindowError {
-    fn advice(&self) -> String {
-        match self {
-            Self::NoDisplay => {
-                "Start Partsight from a desktop session, or over SSH with ssh -X; neither DISPLAY nor WAYLAND_DISPLAY is set"
-                    .into()
-            }
-            Self::Refused { .. } => {
-                "Check that DISPLAY or WAYLAND_DISPLAY names a running desktop, and that the package libxkbcommon-x11-0 is installed"
-                    .into()
-            }
-            Self::DeviceLost { .. } => {
-                "Start Partsight again; no enrolled part and no written file is lost".into()
-            }
-            Self::NoAdapter { .. } => {
-                if cfg!(windows) {
-                    "Install the driver of the graphics card from its maker. If it has one, set the environment variable WGPU_BACKEND to vulkan or gl and start Partsight again".into()
-                } else {
-                    "Install a Vulkan driver: on Debian and Ubuntu the package mesa-vulkan-drivers".into()
-                }
-            }
-        }
-    }
 }
 
 /// Default size of the window, logical pixels.

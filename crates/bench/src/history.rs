@@ -210,6 +210,7 @@ fn entry(
                 thumbnail: Vec::new(),
                 origin: None,
                 frame: None,
+                frame_loss: None,
             },
         },
         picture: None,

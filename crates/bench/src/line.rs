@@ -170,10 +170,6 @@ impl Watched<'_> {
         .expect("not cancelled")
     }
 
-    fn middle_of(&self, inspection: &Inspection) -> Option<Point3<f64>> {
-        inspection.best_reference(self.library)?.middle()
-    }
-
     /// Calibrates the line by frames of its first part.
     fn calibrated(&self) -> Result<LineCalibration, LineFitError> {
         let clear = self.clear_way(0);
@@ -190,7 +186,7 @@ impl Watched<'_> {
             let Some((seen, pose)) = seen.and_then(|seen| Some((seen, seen.found_pose()?))) else {
                 continue;
             };
-            middle = self.middle_of(seen).unwrap_or(middle);
+            middle = seen.middle(self.library).unwrap_or(middle);
             poses.push(CountedPose {
                 name: format!("frame at {seconds:.2} s"),
                 count: self.line.count(seconds),
@@ -293,7 +289,7 @@ impl LineCase {
             let mut found = watched.inspected(now);
             self.num_inspected += 1;
             let moment = counts.moment(Duration::from_secs_f64(now), None);
-            let middle_of = |one: &Inspection| watched.middle_of(one);
+            let middle_of = |one: &Inspection| one.middle(watched.library);
             let places: Vec<Option<u64>> = (found.iter())
                 .map(|one| number_of(watched, one, now))
                 .collect();
@@ -314,9 +310,8 @@ impl LineCase {
                 let came_in = watched.line.seconds_at(clear[number as usize].0);
                 // The inspection itself takes up to a period.
                 part.took_s = Some(now + PERIODS_S.0 - came_in.max(start));
-                let middle = watched
-                    .middle_of(&found[index])
-                    .unwrap_or_else(Point3::origin);
+                let middle = found[index].middle(watched.library);
+                let middle = middle.unwrap_or_else(Point3::origin);
                 part.later = LATER_S
                     .into_iter()
                     .map(|seconds| later(watched, pose, number, seconds, &middle, tracker.line()))

@@ -222,7 +222,7 @@ impl Registration {
 fn drawn_source(
     condition: Condition,
     part: &RegistrationPart,
-    place: usize,
+    index: usize,
     seed: u64,
 ) -> (PointCloud, RigidTransform) {
     let mut rng = Pcg64::seed_from_u64(seed);
@@ -240,7 +240,7 @@ fn drawn_source(
     }
     let paper = displacements();
     let source_from_target = match condition {
-        Condition::Starts if place < paper.len() => paper[place],
+        Condition::Starts if index < paper.len() => paper[index],
         _ => anywhere(&mut Pcg64::seed_from_u64(seed ^ 0x905e)),
     };
     for p in &mut cloud.points {

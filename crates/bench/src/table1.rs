@@ -78,7 +78,7 @@ impl Attempt {
 
 /// Returns the parts of a library that have a cloud, in the order of Table I, others last.
 fn parts(library: &Library) -> Vec<&Reference> {
-    let place = |reference: &&Reference| {
+    let index = |reference: &&Reference| {
         let known = PartKind::ALL.iter();
         let mut names = known.map(|kind| kind.name());
         names
@@ -90,7 +90,7 @@ fn parts(library: &Library) -> Vec<&Reference> {
         .iter()
         .filter(|reference| !reference.cloud.points.is_empty())
         .collect();
-    parts.sort_by_key(place);
+    parts.sort_by_key(index);
     parts
 }
 

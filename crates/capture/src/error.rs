@@ -9,10 +9,15 @@ use files::{FileError, FileWarning, advice_on, words_of};
 use geometry::error::Advice;
 
 /// Why a source cannot be opened, delivers no more, or cannot be recorded.
-#[derive(Debug, Error)]
+#[derive(Debug, Error, Advice)]
 pub enum CaptureError {
     /// The folder of a recording, or one to watch, does not exist.
     #[error("{}: the folder does not exist", path.display())]
+    #[advice(if *may_come {
+        format!("Connect the drive or share that holds {}; captures go on by themselves", path.display())
+    } else {
+        "Check the name and that the drive is connected".into()
+    })]
     FolderGone {
         /// The folder.
         path: PathBuf,
@@ -21,6 +26,7 @@ pub enum CaptureError {
     },
     /// The folder cannot be listed.
     #[error("{}: cannot read the folder: {}", path.display(), words_of(source))]
+    #[advice = "Ask for access to this folder; it is looked for again by itself"]
     FolderUnreadable {
         /// The folder.
         path: PathBuf,
@@ -29,30 +35,36 @@ pub enum CaptureError {
     },
     /// A file of a source cannot be read.
     #[error(transparent)]
+    #[advice(transparent)]
     File(#[from] FileError),
     /// The file is a mesh, not a capture of a camera.
     #[error("{}: a mesh, expected a depth camera's capture", path.display())]
+    #[advice("Enrol it as a reference: partsight enrol {} --name NAME", path.display())]
     MeshIsNoCapture {
         /// The file.
         path: PathBuf,
     },
     /// The file is the capture of a camera that does not look along z, saved with faces.
     #[error("{}: {}", path.display(), FileWarning::CaptureWithFaces)]
+    #[advice(FileWarning::CaptureWithFaces.advice())]
     CaptureWithFaces {
         /// The file.
         path: PathBuf,
     },
     /// A camera, its library or a file recorded by it failed.
     #[error(transparent)]
+    #[advice(transparent)]
     Camera(#[from] CameraError),
     /// The folder has nothing to replay.
     #[error("{}: neither a recording nor a camera's file", path.display())]
+    #[advice = "Give the folder that holds the frames, or record a source into one first"]
     NoFrames {
         /// The folder.
         path: PathBuf,
     },
     /// The recording contradicts itself.
     #[error("{}: damaged: {what}", path.display())]
+    #[advice = "Copy the recording again from where it was made"]
     DamagedRecording {
         /// The file.
         path: PathBuf,
@@ -61,12 +73,14 @@ pub enum CaptureError {
     },
     /// The folder to record to is not empty.
     #[error("{}: the folder is not empty", path.display())]
+    #[advice = "Name a folder that is not there yet"]
     FolderInUse {
         /// The folder.
         path: PathBuf,
     },
     /// The recording cannot be continued.
     #[error("{}: cannot record: {}; {} kept", path.display(), words_of(source), counted(*num_kept))]
+    #[advice(advice_on(source))]
     Unwritable {
         /// The folder, or the frame's file.
         path: PathBuf,
@@ -77,15 +91,18 @@ pub enum CaptureError {
     },
     /// The system refuses a thread for the camera.
     #[error("the camera's thread cannot be started: {source}")]
+    #[advice = "Close other programs and start again"]
     NoThread {
         /// The underlying error.
         source: io::Error,
     },
     /// Frames are requested while the window does not follow its source.
     #[error("the window does not follow its source, so there are no frames")]
+    #[advice = "Press Live in the window; if its source is a single file or a scan, first choose a camera, a recording or a folder"]
     NotFollowed,
     /// The camera's thread panicked.
     #[error("an error of the program ended the camera's thread")]
+    #[advice = "Choose the source again, and report what was done before"]
     Crashed,
 }
 
@@ -131,74 +148,38 @@ impl CaptureError {
     }
 }
 
-impl Advice for CaptureError {
-    fn advice(&self) -> String {
-        match self {
-            Self::FolderGone {
-                path,
-                may_come: true,
-            } => format!(
-                "Connect the drive or share that holds {}; captures go on by themselves",
-                path.display()
-            ),
-            Self::FolderGone { .. } => {
-                "Check the name and that the drive is connected".into()
-            }
-            Self::FolderUnreadable { .. } => {
-                "Ask for access to this folder; it is looked for again by itself".into()
-            }
-            Self::File(error) => error.advice(),
-            Self::MeshIsNoCapture { path } => {
-                format!(
-                    "Enrol it as a reference: partsight enrol {} --name NAME",
-                    path.display()
-                )
-            }
-            Self::CaptureWithFaces { .. } => FileWarning::CaptureWithFaces.advice(),
-            Self::Camera(error) => error.advice(),
-            Self::NoFrames { .. } => {
-                "Give the folder that holds the frames, or record a source into one first".into()
-            }
-            Self::DamagedRecording { .. } => {
-                "Copy the recording again from where it was made".into()
-            }
-            Self::FolderInUse { .. } => "Name a folder that is not there yet".into(),
-            Self::Unwritable { source, .. } => advice_on(source).into(),
-            Self::NoThread { .. } => "Close other programs and start again".into(),
-            Self::NotFollowed => {
-                "Press Live in the window; if its source is a single file or a scan, first choose a camera, a recording or a folder".into()
-            }
-            Self::Crashed => "Choose the source again, and report what was done before".into(),
-        }
-    }
-}
-
 /// Something odd about a capture that can be used nevertheless.
-#[derive(Clone, Debug, PartialEq, Error)]
+#[derive(Clone, Debug, PartialEq, Error, Advice)]
 pub enum CaptureWarning {
     /// About the capture's file.
     #[error(transparent)]
+    #[advice(transparent)]
     File(#[from] FileWarning),
     /// The library does not reveal the Kinect's focal length.
     #[error("the Kinect's focal length is not known; {pixels:.1} pixels are assumed")]
+    #[advice(USE_LIBFREENECT)]
     AssumedFocalLength {
         /// The assumed focal length along columns and rows, pixels.
         pixels: f64,
     },
     /// The library delivers steps of disparity without the values to convert them into lengths.
     #[error("the Kinect's own calibration is not known; that of a typical Kinect is assumed")]
+    #[advice(USE_LIBFREENECT)]
     AssumedDepthScale,
     /// The GenICam camera has no `Scan3dDistanceUnit`.
     #[error("the camera does not report its unit of length; millimetres are assumed")]
+    #[advice = "Compare the size of a part in the 3-D view with the real one"]
     AssumedUnit,
     /// The end of the recording is missing.
     #[error("the recording was cut off; its {num_frames} whole frames are replayed")]
+    #[advice = "Record again if the end matters; leave room on the disk, and stop before you unplug a drive"]
     CutOff {
         /// Number of complete frames.
         num_frames: usize,
     },
     /// The sequence has no file with the camera's numbers.
     #[error("{} is missing: a camera of 640×480 pixels, fx = fy = 525, with 5000 units to the metre is assumed", missing.display())]
+    #[advice("Put the camera's intrinsics into {}, as beside a depth PNG", missing.display())]
     AssumedCamera {
         /// Where that file was expected.
         missing: PathBuf,
@@ -212,23 +193,5 @@ impl CaptureWarning {
     }
 }
 
-impl Advice for CaptureWarning {
-    fn advice(&self) -> String {
-        match self {
-            Self::File(warning) => warning.advice(),
-            Self::AssumedFocalLength { .. } | Self::AssumedDepthScale => {
-                "Use the system's libfreenect 0.5 with a Kinect: it reads these values from the camera".into()
-            }
-            Self::AssumedUnit => {
-                "Compare the size of a part in the 3-D view with the real one".into()
-            }
-            Self::CutOff { .. } => {
-                "Record again if the end matters; leave room on the disk, and stop before you unplug a drive".into()
-            }
-            Self::AssumedCamera { missing } => format!(
-                "Put the camera's intrinsics into {}, as beside a depth PNG",
-                missing.display()
-            ),
-        }
-    }
-}
+const USE_LIBFREENECT: &str =
+    "Use the system's libfreenect 0.5 with a Kinect: it reads these values from the camera";

@@ -4,7 +4,7 @@
 use std::time::Duration;
 
 /// Some cameras take more than a second from the start to their first frame.
-const DEFAULT_LIMIT: Duration = Duration::from_secs(5);
+const DEFAULT_TIMEOUT: Duration = Duration::from_secs(5);
 
 /// Sums up the waits in which a camera sent nothing; time in which nobody waited for a frame does not count.
 pub(super) struct ReadTimeout {
@@ -14,7 +14,7 @@ pub(super) struct ReadTimeout {
 
 impl Default for ReadTimeout {
     fn default() -> Self {
-        Self::with_limit(DEFAULT_LIMIT)
+        Self::with_limit(DEFAULT_TIMEOUT)
     }
 }
 

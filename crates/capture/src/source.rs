@@ -1,6 +1,7 @@
 //! The trait of capture sources, and captures.
 
 use std::{
+    fmt,
     sync::Arc,
     time::{Duration, Instant},
 };
@@ -109,4 +110,16 @@ pub struct SkippedCapture {
     pub name: String,
     /// Why it cannot be read.
     pub error: Arc<CaptureError>,
+}
+
+impl fmt::Display for SkippedCapture {
+    /// The error, behind the name unless it has that itself, as the path of a file.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { name, error } = self;
+        let what = error.to_string();
+        if !what.contains(name.as_str()) {
+            write!(f, "{name}: ")?;
+        }
+        f.write_str(&what)
+    }
 }

@@ -23,7 +23,7 @@ pub struct Row<'a> {
 }
 
 impl<'a> Row<'a> {
-    pub fn of(text: &'a str) -> Self {
+    pub fn new(text: &'a str) -> Self {
         // "1, 2, 3" has commas and spaces; "1,2,3 4" does not occur.
         let mut known = [';', ','].into_iter();
         Self {
@@ -80,7 +80,7 @@ pub fn table_rows<'a>(text: &'a str, path: &Path) -> Result<Vec<(usize, Row<'a>)
     lines
         .map(|(i, line)| (i + 1, line.trim()))
         .filter(|(_, line)| !line.is_empty() && !line.starts_with('#') && !line.starts_with("//"))
-        .map(|(number, line)| Ok((number, Row::of(line).limited(source, number)?)))
+        .map(|(number, line)| Ok((number, Row::new(line).limited(source, number)?)))
         .collect()
 }
 

@@ -23,65 +23,55 @@ pub enum FileContent {
 }
 
 /// Something odd about a file that could be read all the same.
-#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[derive(Clone, Copy, Debug, PartialEq, Error, Advice)]
 pub enum FileWarning {
     /// Taken as metres, the points span more than any spray cell.
     #[error("the points span {:.0} m, so the file may be in {}", extent.0, units_of(*extent))]
+    #[advice(if extent.0 < ONLY_MILLIMETRES_M {
+        "Read it in its own unit, or export it in metres"
+    } else {
+        "Read it as millimetres, or export it in metres"
+    })]
     TooWideForMetres {
         /// The longest side of the box around the points.
         extent: Metres,
     },
     /// The points span less than any part.
     #[error("the points span only {extent}, so the file is probably in another unit")]
+    #[advice = "Read it in its own unit, probably metres"]
     TooSmall {
         /// The longest side of the box around the points.
         extent: Metres,
     },
     /// The file is longer than its header announces.
     #[error("{num} bytes follow the last point, so the file is probably damaged")]
+    #[advice = "Copy or export the file again from the program that made it"]
     SurplusBytes {
         /// Bytes after the last point.
         num: u64,
     },
     /// Points lie behind a camera at the origin.
     #[error("{:.1} % of the points lie behind the camera, so they are probably in another frame", share * 100.0)]
+    #[advice(IN_CAMERA_FRAME)]
     BehindCamera {
         /// Share of the points, 0..1.
         share: f64,
     },
     /// Rows and columns are not the picture of a pinhole camera at the origin.
     #[error("its rows and columns are not those of an undistorted camera at the origin")]
+    #[advice(IN_CAMERA_FRAME)]
     NoPinholeCamera,
     /// A mesh of faces between the pixels of a camera that does not look along z.
     #[error("the mesh is the capture of one camera, saved with faces, and not a part")]
+    #[advice = "Read it with y up, so that the camera looks along z, or save it again without faces"]
     CaptureWithFaces,
     /// The camera is implausible.
     #[error(transparent)]
+    #[advice(transparent)]
     Camera(#[from] CameraDoubt),
 }
 
-impl Advice for FileWarning {
-    fn advice(&self) -> String {
-        match self {
-            Self::TooWideForMetres { extent } if extent.0 < ONLY_MILLIMETRES_M => {
-                "Read it in its own unit, or export it in metres".into()
-            }
-            Self::TooWideForMetres { .. } => "Read it as millimetres, or export it in metres".into(),
-            Self::TooSmall { .. } => "Read it in its own unit, probably metres".into(),
-            Self::SurplusBytes { .. } => {
-                "Copy or export the file again from the program that made it".into()
-            }
-            Self::BehindCamera { .. } | Self::NoPinholeCamera => {
-                "For an inspection export the capture in the camera's own frame, x right, y down, z forward, with its distortion removed"
-                    .into()
-            }
-            Self::CaptureWithFaces => {
-                "Read it with y up, so that the camera looks along z, or save it again without faces".into()
-            }
-            Self::Camera(doubt) => doubt.advice(),
-        }
-    }
-}
+const IN_CAMERA_FRAME: &str = "For an inspection export the capture in the camera's own frame, x right, y down, z forward, with its distortion removed";
 
 /// The extent that causes a warning, in metres: a part of 0.1 m in millimetres looks this wide, and no cell is.
 const SUSPICIOUS_EXTENT_M: f64 = 100.0;

@@ -194,18 +194,13 @@ fn is_same(metres: f64, other: f64) -> bool {
 }
 
 /// A field of the JSON that is not read, and is spelt nearly like one that is.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, Advice)]
 #[error("{}: the field {written} is not read, probably {known} is meant", path.display())]
+#[advice = "Rename the field to {known}, or remove it"]
 pub struct MisspeltField {
     path: PathBuf,
     written: String,
     known: &'static str,
-}
-
-impl Advice for MisspeltField {
-    fn advice(&self) -> String {
-        format!("Rename the field to {}, or remove it", self.known)
-    }
 }
 
 /// The fields that may be missing; without one of the others there is an error anyway.
@@ -264,7 +259,7 @@ const FOLDS: &str = "the distortion folds back inside the picture";
 
 impl DepthCamera {
     /// Returns the camera that took a frame.
-    pub fn of(frame: &DepthFrame) -> Self {
+    pub fn from_frame(frame: &DepthFrame) -> Self {
         Self {
             intrinsics: frame.intrinsics,
             metres_per_unit: frame.metres_per_unit,

@@ -40,7 +40,7 @@ use geometry::error::guarded;
 pub fn write_depth_png(path: &Path, frame: &DepthFrame) -> Result<(), FileError> {
     let json = intrinsics_path(path);
     // Do not overwrite a file that is not a camera.
-    let camera = DepthCamera::of(frame);
+    let camera = DepthCamera::from_frame(frame);
     match read_limited(&json, MAX_CAMERA_BYTES) {
         Ok(bytes) if is_intrinsics(&bytes) => {
             // Remove the old image first, so that nobody reads it with the new camera.
@@ -156,7 +156,7 @@ pub(super) fn decode(source: Source<'_>) -> Result<((usize, usize), Vec<u16>), F
         ImageError::IoError(_) => source.cut_before("the end of the image", "PNG"),
         other => source.damaged(other.to_string()),
     };
-    let header = Header::of(source.bytes)
+    let header = Header::parse(source.bytes)
         .ok_or_else(|| source.cut_before("the end of the header", "PNG"))?;
     // Check this before the decoder does, which refuses large sizes in words of its own.
     source.limited("pixels", header.width.saturating_mul(header.height))?;
@@ -217,7 +217,7 @@ const PALETTE: u8 = 3;
 
 impl Header {
     /// Returns `None` if the bytes end before the header does.
-    fn of(bytes: &[u8]) -> Option<Self> {
+    fn parse(bytes: &[u8]) -> Option<Self> {
         // Skip eight bytes of magic, and the chunk's length and name.
         let [w0, w1, w2, w3, h0, h1, h2, h3, bits, colour_type] =
             *bytes.get(16..)?.first_chunk()?;

@@ -11,22 +11,28 @@ use super::names::{listed, nearest_name};
 use geometry::error::{Advice, Fault};
 
 /// Why a file could not be read or written. Every variant about a file names it.
-#[derive(Debug, Error)]
+#[derive(Debug, Error, Advice)]
 pub enum FileError {
     /// There is nothing at that path.
     #[error("{}: no such file", path.display())]
+    #[advice = "Check the name and that the drive is connected"]
     NotFound {
         /// The path as it was given.
         path: PathBuf,
     },
     /// The system denies access.
     #[error("{}: permission denied", path.display())]
+    #[advice = "Ask for access to this folder, or copy the file to a folder of your own"]
     PermissionDenied {
         /// The file, or the folder to write to.
         path: PathBuf,
     },
     /// There is a folder, a pipe or a device instead of a file.
     #[error("{}: {found}", path.display())]
+    #[advice(match found {
+        NoFile::Folder => "Give the path of a file, not of a folder",
+        NoFile::Device => "Copy its content into a file and give that",
+    })]
     NotAFile {
         /// The path as it was given.
         path: PathBuf,
@@ -35,18 +41,21 @@ pub enum FileError {
     },
     /// There is a folder instead of a capture, cloud or mesh.
     #[error("{}: {}", path.display(), NoFile::Folder)]
+    #[advice("Give the captures in it, for example {}", path.join("*.png").display())]
     FolderOfCaptures {
         /// The path as it was given.
         path: PathBuf,
     },
     /// The file has no bytes.
     #[error("{}: the file is empty", path.display())]
+    #[advice = "Record or export the file again; its last copy was not completed"]
     Empty {
         /// The file.
         path: PathBuf,
     },
     /// The content is in none of the known formats.
     #[error("{}: found {found}, expected PCD, PLY, XYZ or CSV text, STL, OBJ, glTF, GLB or a depth PNG", path.display())]
+    #[advice = "Export the cloud as PCD or PLY, or the part as STL, OBJ or glTF, and open that"]
     UnknownFormat {
         /// The file.
         path: PathBuf,
@@ -55,6 +64,7 @@ pub enum FileError {
     },
     /// The camera of a depth image was given instead of the image.
     #[error("{}: this is the camera of {}, not a capture", path.display(), image.display())]
+    #[advice("Give the PNG: {}", image.display())]
     IsIntrinsics {
         /// The JSON.
         path: PathBuf,
@@ -63,6 +73,7 @@ pub enum FileError {
     },
     /// The format is known, but not this variant of it.
     #[error("{}: found {found}, expected {expected}", path.display())]
+    #[advice = "Export the file again as {expected}"]
     Unsupported {
         /// The file.
         path: PathBuf,
@@ -73,6 +84,7 @@ pub enum FileError {
     },
     /// The file ends early.
     #[error("{}: the file ends early: found {found} bytes of {what}, expected {expected}", path.display())]
+    #[advice = "Copy or export the file again; the last copy stopped half-way"]
     Truncated {
         /// The file.
         path: PathBuf,
@@ -85,6 +97,7 @@ pub enum FileError {
     },
     /// The header is contradictory or cannot be parsed.
     #[error("{}: bad header: found {found}, expected {expected}", path.display())]
+    #[advice(EXPORT_AGAIN)]
     BadHeader {
         /// The file.
         path: PathBuf,
@@ -95,6 +108,7 @@ pub enum FileError {
     },
     /// A line of a text format cannot be parsed.
     #[error("{}, line {line}: found {found:?}, expected {expected}", path.display())]
+    #[advice = "Correct line {line} in a text editor, or export the file again"]
     Malformed {
         /// The file.
         path: PathBuf,
@@ -107,6 +121,7 @@ pub enum FileError {
     },
     /// The content is damaged or contradicts itself.
     #[error("{}: damaged: {what}", path.display())]
+    #[advice(EXPORT_AGAIN)]
     Damaged {
         /// The file.
         path: PathBuf,
@@ -115,6 +130,7 @@ pub enum FileError {
     },
     /// The file has more of something than is read from one file.
     #[error("{}: {found} {what}, but at most {limit} are read", path.display())]
+    #[advice = "Thin the cloud out, or cut away what is not the part, and export it again"]
     TooLarge {
         /// The file.
         path: PathBuf,
@@ -127,6 +143,7 @@ pub enum FileError {
     },
     /// The file is larger than files of this kind ever are.
     #[error("{}: {found} bytes, but at most {limit} are read from a file of this kind", path.display())]
+    #[advice = "Choose another file: a table, a description or a calibration is far smaller"]
     TooLong {
         /// The file.
         path: PathBuf,
@@ -137,6 +154,7 @@ pub enum FileError {
     },
     /// A newer version of the program wrote the file.
     #[error("{}: made by a newer version of Partsight (schema {found}, this one reads up to {known})", path.display())]
+    #[advice = "Update Partsight on this computer"]
     Newer {
         /// The file.
         path: PathBuf,
@@ -147,15 +165,18 @@ pub enum FileError {
     },
     /// The system names no folder for the user's data.
     #[error("this system has no folder for user data")]
+    #[advice = "Set {OWN_FOLDER} to a folder of your own"]
     NoUserFolder,
     /// Another program wrote to the file while it was read.
     #[error("{}: the file changed while it was read", path.display())]
+    #[advice = "Wait until the program that writes it has finished, then open it again"]
     Changing {
         /// The file.
         path: PathBuf,
     },
     /// The reader of this format panicked.
     #[error("{}: {fault}", path.display())]
+    #[advice(fault.advice())]
     Fault {
         /// The file.
         path: PathBuf,
@@ -164,6 +185,7 @@ pub enum FileError {
     },
     /// The file has no points, or none with three finite coordinates.
     #[error("{}: none of its {found} points is a reading", path.display())]
+    #[advice = "Check that the camera saw the part, between 0.5 m and 4 m away, and capture again"]
     NoPoints {
         /// The file.
         path: PathBuf,
@@ -172,12 +194,14 @@ pub enum FileError {
     },
     /// A file of a mesh format has no triangles.
     #[error("{}: no triangles, expected a surface", path.display())]
+    #[advice = "Export the part as a surface of triangles, not as curves or points"]
     NoTriangles {
         /// The file.
         path: PathBuf,
     },
     /// The file has no mesh of the requested name.
     #[error("{}: no mesh named {wanted:?}; it has {}", path.display(), listed(available, wanted))]
+    #[advice(mesh_to_name(path, wanted, available))]
     NoSuchMesh {
         /// The file, without the name of the mesh.
         path: PathBuf,
@@ -188,6 +212,7 @@ pub enum FileError {
     },
     /// The import options after the path are not valid.
     #[error("{}: {bad}", path.display())]
+    #[advice(bad.advice())]
     ImportOption {
         /// The file, without the options.
         path: PathBuf,
@@ -196,6 +221,7 @@ pub enum FileError {
     },
     /// The file has several meshes and none was named.
     #[error("{}: {} meshes, expected one name after '#'; it has {}", path.display(), available.len(), listed(available, ""))]
+    #[advice("Add the name of one mesh after '#', for example {}#{}", path.display(), available.first().map_or("NAME", String::as_str))]
     NeedsMeshName {
         /// The file.
         path: PathBuf,
@@ -204,6 +230,7 @@ pub enum FileError {
     },
     /// A depth PNG has no camera file.
     #[error("{}: a depth image, expected its intrinsics in {}", path.display(), json.display())]
+    #[advice("Put the camera's intrinsics into {}, for example {EXAMPLE_JSON}", json.display())]
     MissingIntrinsics {
         /// The image.
         path: PathBuf,
@@ -215,12 +242,14 @@ pub enum FileError {
         "{}: bad intrinsics: the distortion folds back inside the picture, so that some pixels have no ray",
         path.display()
     )]
+    #[advice("Check k1 to k6, p1 and p2 in {}: they are OpenCV's, for the image at this width and height; without them the lens is taken for a pinhole", path.display())]
     FoldingDistortion {
         /// The JSON.
         path: PathBuf,
     },
     /// The camera file cannot be used.
     #[error("{}: bad intrinsics: {found}", path.display())]
+    #[advice("Correct {}, for example to {EXAMPLE_JSON}", path.display())]
     BadIntrinsics {
         /// The JSON.
         path: PathBuf,
@@ -229,6 +258,7 @@ pub enum FileError {
     },
     /// A PNG is not 16-bit greyscale.
     #[error("{}: found {found}, expected a 16-bit greyscale PNG of depth", path.display())]
+    #[advice = "Save the depth image itself as 16-bit greyscale PNG, not the picture drawn from it"]
     WrongPngKind {
         /// The image.
         path: PathBuf,
@@ -237,12 +267,14 @@ pub enum FileError {
     },
     /// The file name's ending is not a format that can be written.
     #[error("{}: no format belongs to this name, expected {ENDINGS}", path.display())]
+    #[advice = "End the name in {ENDINGS}"]
     UnknownEnding {
         /// The path as it was given.
         path: PathBuf,
     },
     /// Writing the camera of a depth image would overwrite a file that is not a camera.
     #[error("{}: exists already and is not the camera of a depth image; the camera of {} would overwrite it", path.display(), image.display())]
+    #[advice("Choose another name for the image, or move {} away", path.display())]
     ForeignSidecar {
         /// The JSON file that exists.
         path: PathBuf,
@@ -251,6 +283,7 @@ pub enum FileError {
     },
     /// The system could not read the file.
     #[error("{}: cannot read: {source}", path.display())]
+    #[advice = "Copy the file to this computer's own disk and open the copy"]
     Read {
         /// The file.
         path: PathBuf,
@@ -259,6 +292,7 @@ pub enum FileError {
     },
     /// The system could not write; the path is unchanged.
     #[error("{}: cannot write: {}", path.display(), words_of(source))]
+    #[advice(advice_on(source))]
     Write {
         /// The path to be written.
         path: PathBuf,
@@ -324,107 +358,18 @@ impl FileError {
     }
 }
 
-impl Advice for FileError {
-    fn advice(&self) -> String {
-        match self {
-            Self::NotFound { .. } => "Check the name and that the drive is connected".into(),
-            Self::PermissionDenied { .. } => {
-                "Ask for access to this folder, or copy the file to a folder of your own".into()
-            }
-            Self::NotAFile {
-                found: NoFile::Folder,
-                ..
-            } => "Give the path of a file, not of a folder".into(),
-            Self::NotAFile { .. } => "Copy its content into a file and give that".into(),
-            Self::IsIntrinsics { image, .. } => format!("Give the PNG: {}", image.display()),
-            Self::FolderOfCaptures { path } => format!(
-                "Give the captures in it, for example {}",
-                path.join("*.png").display()
-            ),
-            Self::Empty { .. } => {
-                "Record or export the file again; its last copy was not completed".into()
-            }
-            Self::UnknownFormat { .. } => {
-                "Export the cloud as PCD or PLY, or the part as STL, OBJ or glTF, and open that"
-                    .into()
-            }
-            Self::Unsupported { expected, .. } => format!("Export the file again as {expected}"),
-            Self::Truncated { .. } => {
-                "Copy or export the file again; the last copy stopped half-way".into()
-            }
-            Self::BadHeader { .. } | Self::Damaged { .. } => {
-                "Export the file again from the program that made it".into()
-            }
-            Self::Malformed { line, .. } => {
-                format!("Correct line {line} in a text editor, or export the file again")
-            }
-            Self::TooLong { .. } => {
-                "Choose another file: a table, a description or a calibration is far smaller".into()
-            }
-            Self::Newer { .. } => "Update Partsight on this computer".into(),
-            Self::NoUserFolder => format!("Set {OWN_FOLDER} to a folder of your own"),
-            Self::TooLarge { .. } => {
-                "Thin the cloud out, or cut away what is not the part, and export it again".into()
-            }
-            Self::Changing { .. } => {
-                "Wait until the program that writes it has finished, then open it again".into()
-            }
-            Self::Fault { fault, .. } => fault.advice(),
-            Self::NoPoints { .. } => {
-                "Check that the camera saw the part, between 0.5 m and 4 m away, and capture again"
-                    .into()
-            }
-            Self::NoTriangles { .. } => {
-                "Export the part as a surface of triangles, not as curves or points".into()
-            }
-            Self::NoSuchMesh {
-                path,
-                wanted,
-                available,
-            } => match nearest_name(available.iter().map(String::as_str), wanted) {
-                Some(name) => format!(
-                    "Did you mean {}#{name}? Give one of the names it has",
-                    path.display()
-                ),
-                None if available.is_empty() => {
-                    format!("Open {} without a name after '#'", path.display())
-                }
-                None => "Give one of the names it has after '#'".into(),
-            },
-            Self::ImportOption { bad, .. } => bad.advice(),
-            Self::NeedsMeshName { path, available } => format!(
-                "Add the name of one mesh after '#', for example {}#{}",
-                path.display(),
-                available.first().map_or("NAME", String::as_str)
-            ),
-            Self::MissingIntrinsics { json, .. } => {
-                format!(
-                    "Put the camera's intrinsics into {}, for example {EXAMPLE_JSON}",
-                    json.display()
-                )
-            }
-            Self::BadIntrinsics { path, .. } => {
-                format!("Correct {}, for example to {EXAMPLE_JSON}", path.display())
-            }
-            Self::FoldingDistortion { path } => format!(
-                "Check k1 to k6, p1 and p2 in {}: they are OpenCV's, for the image at this width and height; without them \
-                 the lens is taken for a pinhole",
-                path.display()
-            ),
-            Self::WrongPngKind { .. } => {
-                "Save the depth image itself as 16-bit greyscale PNG, not the picture drawn from it"
-                    .into()
-            }
-            Self::UnknownEnding { .. } => format!("End the name in {ENDINGS}"),
-            Self::ForeignSidecar { path, .. } => format!(
-                "Choose another name for the image, or move {} away",
-                path.display()
-            ),
-            Self::Read { .. } => {
-                "Copy the file to this computer's own disk and open the copy".into()
-            }
-            Self::Write { source, .. } => advice_on(source).into(),
+const EXPORT_AGAIN: &str = "Export the file again from the program that made it";
+
+fn mesh_to_name(path: &Path, wanted: &str, available: &[String]) -> String {
+    match nearest_name(available.iter().map(String::as_str), wanted) {
+        Some(name) => format!(
+            "Did you mean {}#{name}? Give one of the names it has",
+            path.display()
+        ),
+        None if available.is_empty() => {
+            format!("Open {} without a name after '#'", path.display())
         }
+        None => "Give one of the names it has after '#'".into(),
     }
 }
 

@@ -4,20 +4,20 @@
 pub fn csv_column(table: &str, heading: &str) -> Vec<String> {
     let mut rows = table.lines().map(csv_fields);
     let headings = rows.next().expect("a heading");
-    let place = headings.iter().position(|name| name == heading);
-    let place = place.unwrap_or_else(|| panic!("no {heading} among {headings:?}"));
-    rows.map(|mut fields| fields.swap_remove(place)).collect()
+    let index = headings.iter().position(|name| name == heading);
+    let index = index.unwrap_or_else(|| panic!("no {heading} among {headings:?}"));
+    rows.map(|mut fields| fields.swap_remove(index)).collect()
 }
 
 /// Splits a line at the commas outside of quotation marks.
 fn csv_fields(line: &str) -> Vec<String> {
     let pieces: Vec<&str> = line.split('"').collect();
     let (mut fields, mut field) = (Vec::new(), String::new());
-    for (place, piece) in pieces.iter().enumerate() {
-        if place % 2 == 1 {
+    for (index, piece) in pieces.iter().enumerate() {
+        if index % 2 == 1 {
             // Within quotation marks.
             field.push_str(piece);
-        } else if piece.is_empty() && place > 0 && place + 1 < pieces.len() {
+        } else if piece.is_empty() && index > 0 && index + 1 < pieces.len() {
             // Two quotation marks within a field stand for one.
             field.push('"');
         } else {

@@ -108,15 +108,10 @@ pub struct ImportOptions {
 }
 
 /// An import option behind a path has an unknown value.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, Advice)]
 #[error("not an import option: {0:?}")]
+#[advice = "Write #units=m, cm, mm or in, and #up=-y, y or z after the path"]
 pub struct BadImportOption(pub String);
-
-impl Advice for BadImportOption {
-    fn advice(&self) -> String {
-        "Write #units=m, cm, mm or in, and #up=-y, y or z after the path".into()
-    }
-}
 
 impl ImportOptions {
     /// Lengths in millimetres, axes as in camera space.

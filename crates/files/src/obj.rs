@@ -110,10 +110,10 @@ pub(super) fn read(source: Source<'_>, wanted: Option<&str>) -> Result<FileConte
 
 /// Returns the points that the triangles use, and renumbers the triangles.
 fn keep_used(points: &[Point3<f32>], triangles: &mut [[u32; 3]]) -> Vec<Point3<f32>> {
-    let mut places: HashMap<u32, u32> = HashMap::new();
+    let mut indices: HashMap<u32, u32> = HashMap::new();
     let mut used = Vec::new();
     for corner in triangles.iter_mut().flatten() {
-        *corner = *places.entry(*corner).or_insert_with(|| {
+        *corner = *indices.entry(*corner).or_insert_with(|| {
             used.push(points[*corner as usize]);
             used.len() as u32 - 1
         });

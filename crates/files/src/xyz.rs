@@ -21,8 +21,8 @@ type Columns = [usize; 3];
 /// Returns true if one of the first two lines with content is a point or names the columns.
 pub(super) fn is_xyz(source: Source<'_>) -> bool {
     content(source).take(2).any(|(_, line)| {
-        let row = Row::of(&line);
-        point_of(row, [0, 1, 2]).is_some() || Heading::of(row).is_some()
+        let row = Row::new(&line);
+        point_of(row, [0, 1, 2]).is_some() || Heading::parse(row).is_some()
     })
 }
 
@@ -30,10 +30,10 @@ pub(super) fn read(source: Source<'_>) -> Result<PointCloud, FileError> {
     let mut columns = [0, 1, 2];
     let mut points = Vec::new();
     for (i, (number, line)) in content(source).enumerate() {
-        let row = Row::of(&line).limited(source, number)?;
+        let row = Row::new(&line).limited(source, number)?;
         match point_of(row, columns) {
             Some(point) => points.push(point),
-            None if i == 0 && is_heading(row) => match Heading::of(row) {
+            None if i == 0 && is_heading(row) => match Heading::parse(row) {
                 Some(Heading::Columns(named)) => columns = named,
                 Some(Heading::Ambiguous) => {
                     return Err(source.malformed(number, &line, ONE_COLUMN_EACH));
@@ -111,7 +111,7 @@ enum Heading {
 
 impl Heading {
     /// `None` if the line does not name x, y and z.
-    fn of(row: Row<'_>) -> Option<Self> {
+    fn parse(row: Row<'_>) -> Option<Self> {
         let names: Vec<&str> = row.cells().take(MAX_COLUMNS).map(column_name).collect();
         let column = |is: &dyn Fn(&str) -> bool| {
             let mut columns = (0..names.len()).filter(|i| is(names[*i]));

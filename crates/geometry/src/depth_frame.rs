@@ -137,12 +137,13 @@ impl Intrinsics {
 }
 
 /// Why the numbers of a camera are probably wrong.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error, Advice)]
 pub enum CameraDoubt {
     /// The optical axis is far from the middle of the picture.
     #[error(
         "the camera's centre ({:.0}, {:.0}) lies {:.0} pixels from the middle of the picture", centre[0], centre[1], off
     )]
+    #[advice = "Check cx and cy, and whether the picture was cut, mirrored or turned after they were measured: an error of 10 pixels moves a part by 2 cm"]
     OffCentre {
         /// cx and cy, pixels.
         centre: [f64; 2],
@@ -151,6 +152,7 @@ pub enum CameraDoubt {
     },
     /// The focal lengths differ as no camera's do.
     #[error("the camera's focal lengths differ: fx = {fx:.1} and fy = {fy:.1} pixels")]
+    #[advice = "Check fx and fy, and whether the picture was stretched: parts would have the wrong width or height"]
     FocalLengthsDiffer {
         /// Along the rows, pixels.
         fx: f64,
@@ -162,6 +164,7 @@ pub enum CameraDoubt {
         "the camera would see {:.0}° of its surroundings (fx = {fx:.1} pixels at {width} columns)",
         field.degrees()
     )]
+    #[advice = "Check that fx and fy are in pixels of a picture of this size"]
     FieldOfView {
         /// Field of view along the longer side.
         field: Radians,
@@ -172,28 +175,11 @@ pub enum CameraDoubt {
     },
 }
 
-impl Advice for CameraDoubt {
-    fn advice(&self) -> String {
-        match self {
-            Self::OffCentre { .. } => {
-                "Check cx and cy, and whether the picture was cut, mirrored or turned after they were measured: an error of 10 pixels moves a part by 2 cm"
-            }
-            Self::FocalLengthsDiffer { .. } => {
-                "Check fx and fy, and whether the picture was stretched: parts would have the wrong width or height"
-            }
-            Self::FieldOfView { .. } => {
-                "Check that fx and fy are in pixels of a picture of this size"
-            }
-        }
-        .into()
-    }
-}
-
 /// Pictures of fewer pixels come from no camera, but are made up to try something.
 const MIN_PIXELS: usize = 1000;
 /// Largest distance of the optical axis from the middle, as a share of the picture's diagonal. Depth cameras come up to
 /// 0.053 (the narrow field of an Azure Kinect, which is cut out of a larger picture), most to 0.03.
-const MAX_OFF_CENTRE: f64 = 0.06;
+const MAX_OFF_CENTRE_SHARE: f64 = 0.06;
 /// Largest ratio of the focal lengths: pixels of depth cameras are square.
 const MAX_FOCAL_RATIO: f64 = 1.05;
 /// Fields of view along the longer side: long lenses of structured-light cameras have 25°, the widest time-of-flight
@@ -217,7 +203,7 @@ impl Intrinsics {
         }
         let sides = [width as f64, height as f64];
         let off = (cx - (sides[0] - 1.0) / 2.0).hypot(cy - (sides[1] - 1.0) / 2.0);
-        if off > MAX_OFF_CENTRE * sides[0].hypot(sides[1]) {
+        if off > MAX_OFF_CENTRE_SHARE * sides[0].hypot(sides[1]) {
             return Some(CameraDoubt::OffCentre {
                 centre: [cx, cy],
                 off,

@@ -57,11 +57,11 @@ fn is_zero(coefficient: &f64) -> bool {
 type Ray = [f64; 2];
 
 /// Largest error of an undistorted ray, relative to z: less than a millionth of a pixel for any camera.
-const EXACT: f64 = 1e-10;
+const MAX_RAY_ERROR: f64 = 1e-10;
 /// Newton's method doubles the number of correct digits per step; beyond this many steps it does not converge.
 const MAX_STEPS: usize = 24;
 /// Steps in which `undistort` follows a ray outwards from the axis.
-const STAGES: usize = 8;
+const NUM_STAGES: usize = 8;
 
 impl Distortion {
     /// No distortion: a pinhole camera.
@@ -85,8 +85,8 @@ impl Distortion {
     /// if entries beyond these differ from 0.
     pub fn from_list(list: &[f64]) -> Option<Self> {
         let mut all = [0.0; 8];
-        for (place, coefficient) in list.iter().enumerate() {
-            match all.get_mut(place) {
+        for (index, coefficient) in list.iter().enumerate() {
+            match all.get_mut(index) {
                 Some(slot) => *slot = *coefficient,
                 None if *coefficient == 0.0 => {}
                 None => return None,
@@ -132,8 +132,8 @@ impl Distortion {
     /// Returns the ray that the lens shows at `seen`; `None` if there is none.
     pub(super) fn undistort(&self, seen: Ray) -> Option<Ray> {
         let mut ray = [0.0; 2];
-        for stage in 1..=STAGES {
-            let share = stage as f64 / STAGES as f64;
+        for stage in 1..=NUM_STAGES {
+            let share = stage as f64 / NUM_STAGES as f64;
             ray = self.undistort_from(seen.map(|x| x * share), ray)?;
         }
         Some(ray)
@@ -147,7 +147,7 @@ impl Distortion {
         for _ in 0..MAX_STEPS {
             let [dx, dy] = off(&at);
             let error = dx.hypot(dy);
-            if error < EXACT {
+            if error < MAX_RAY_ERROR {
                 return Some(ray);
             }
             let [xx, xy, yy] = slopes;

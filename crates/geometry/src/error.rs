@@ -6,12 +6,13 @@ use std::{
     sync::{Mutex, MutexGuard, PoisonError},
 };
 
+pub use derive::Advice;
 use texts::{Described, Message};
 
 /// Tells the user what to do about an error; kept apart from the error's message.
 ///
 /// The message states what was found and what was expected; the advice is one imperative sentence,
-/// for example "Clear the table and capture again".
+/// for example "Clear the table and capture again". It stands beside the message: `#[derive(Advice)]`.
 pub trait Advice {
     /// Returns what to do next, as one sentence without a line break.
     fn advice(&self) -> String;
@@ -31,7 +32,7 @@ pub struct Fault {
 }
 
 impl Fault {
-    fn of(panic: &(dyn Any + Send)) -> Self {
+    fn from_panic(panic: &(dyn Any + Send)) -> Self {
         let text = panic.downcast_ref::<&str>().map(ToString::to_string);
         let text = text.or_else(|| panic.downcast_ref::<String>().cloned());
         Self {
@@ -53,7 +54,7 @@ texts::display!(Fault);
 /// Anything that `work` shares with others must stay usable if it breaks off half-way: frames and libraries are only
 /// ever read or replaced whole.
 pub fn guarded<T>(work: impl FnOnce() -> T) -> Result<T, Fault> {
-    catch_unwind(AssertUnwindSafe(work)).map_err(|panic| Fault::of(panic.as_ref()))
+    catch_unwind(AssertUnwindSafe(work)).map_err(|panic| Fault::from_panic(panic.as_ref()))
 }
 
 /// Locks a mutex and ignores poisoning. Use it only for values that are replaced whole or appended to: these stay valid

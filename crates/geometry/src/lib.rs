@@ -1,6 +1,9 @@
 //! Points, depth frames, transforms and spatial searches, units, and the advice that errors give; independent of files,
 //! devices and stages.
 
+// The derived code of `Advice` says `::geometry`.
+extern crate self as geometry;
+
 pub mod clock;
 pub mod cloud;
 pub mod depth_frame;

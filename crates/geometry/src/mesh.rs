@@ -26,7 +26,8 @@ pub struct TriangleMesh {
 }
 
 /// Reason why vertices and triangles do not form a mesh.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, Debug, PartialEq, Eq, Error, Advice)]
+#[advice = "Export the mesh again from the program that made it"]
 pub enum MeshError {
     /// A triangle refers to a vertex that does not exist.
     #[error("triangle {triangle} refers to vertex {index}, but there are {num_vertices}")]
@@ -44,12 +45,6 @@ pub enum MeshError {
         /// Index of the vertex.
         vertex: usize,
     },
-}
-
-impl Advice for MeshError {
-    fn advice(&self) -> String {
-        "Export the mesh again from the program that made it".into()
-    }
 }
 
 impl TriangleMesh {

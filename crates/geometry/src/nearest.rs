@@ -11,7 +11,7 @@ use nalgebra::Point3;
 
 /// Points per leaf. Scanning a whole leaf is faster than descending further. On clouds of 5 000 to 50 000 points, 8
 /// to 16 were equally fast.
-const LEAF_SIZE: usize = 12;
+const LEAF_POINTS: usize = 12;
 
 /// A neighbour found by a search.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,7 +50,7 @@ impl KdTree {
             .filter(|(_, p)| super::cloud::is_finite(p))
             .map(|(i, p)| ([p.x, p.y, p.z], i as u32))
             .collect();
-        let num_leaves = entries.len().div_ceil(LEAF_SIZE).next_power_of_two();
+        let num_leaves = entries.len().div_ceil(LEAF_POINTS).next_power_of_two();
         let mut splits = vec![Split::default(); num_leaves - 1];
         split_at_medians(&mut entries, &mut splits, 0);
         Self {
@@ -339,7 +339,7 @@ mod tests {
             let mut num_leaves = 0;
             while let Some((node, run)) = cells.pop() {
                 let Some(Split { axis, at }) = tree.splits.get(node) else {
-                    prop_assert!(run.len() <= LEAF_SIZE);
+                    prop_assert!(run.len() <= LEAF_POINTS);
                     prop_assert_eq!(tree.leaf(node), run);
                     num_leaves += 1;
                     continue;

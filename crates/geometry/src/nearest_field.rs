@@ -40,7 +40,7 @@ enum Cells {
 }
 
 impl Cells {
-    fn of(nearest: Vec<u32>, num_points: usize) -> Self {
+    fn new(nearest: Vec<u32>, num_points: usize) -> Self {
         if num_points > usize::from(u16::MAX) {
             return Self::Wide(nearest);
         }
@@ -197,7 +197,7 @@ impl NearestField {
             }
             std::mem::swap(&mut front, &mut next);
         }
-        self.cells = Cells::of(cells, points.len());
+        self.cells = Cells::new(cells, points.len());
         self.points = points;
     }
 }

@@ -12,7 +12,7 @@ use super::{cloud::is_finite, nearest::KdTree, principal::principal_axes};
 use crate::units::Metres;
 
 /// Ratio of the standard deviations along the second and first axes below which neighbours count as a line.
-const LINE_BELOW: f64 = 1e-3;
+const LINE_MAX_RATIO: f64 = 1e-3;
 
 /// Returns a unit normal per point, turned towards `viewpoint`; `tree` holds the same points.
 ///
@@ -50,7 +50,7 @@ pub fn estimate_normals(
 fn plane_normal(neighbours: &[Point3<f64>]) -> Option<Vector3<f64>> {
     let principal = principal_axes(neighbours.iter().map(|p| (*p, 1.0)))?;
     let [first, second, _] = principal.variances;
-    let is_plane = second > first * LINE_BELOW * LINE_BELOW && second > 0.0;
+    let is_plane = second > first * LINE_MAX_RATIO * LINE_MAX_RATIO && second > 0.0;
     is_plane.then(|| principal.axes.column(2).into_owned())
 }
 

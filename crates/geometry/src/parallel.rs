@@ -55,7 +55,7 @@ pub fn map_in_order<S, T: Send>(
         return (0..num_pieces).map(|i| work(&mut state, i)).collect();
     }
     // Small enough that no worker waits long for the last block, large enough that taking a block costs nothing.
-    let block = (num_pieces / (num_workers * BLOCKS_EACH)).max(1);
+    let block = (num_pieces / (num_workers * BLOCKS_PER_WORKER)).max(1);
     let next = AtomicUsize::new(0);
     let take_blocks = || {
         let mut state = prepare();
@@ -121,7 +121,7 @@ pub fn map_beside<H, T: Send>(
 }
 
 /// Number of blocks per worker, on average.
-const BLOCKS_EACH: usize = 8;
+const BLOCKS_PER_WORKER: usize = 8;
 
 #[cfg(test)]
 mod tests {

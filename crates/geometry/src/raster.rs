@@ -135,8 +135,8 @@ impl PackedImage {
         let whole = |x: f32, last: f32| (x.max(0.0).min(last) + WHOLE).to_bits() & 0x7f_ffff;
         let mut num = 0;
         for [x, y] in &points.blocks {
-            let mut places = [0; BLOCK];
-            for i in 0..BLOCK {
+            let mut places = [0; BLOCK_POINTS];
+            for i in 0..BLOCK_POINTS {
                 // Add 1 for the border.
                 let column = m.m11 * x[i] + m.m12 * y[i] + (m.m13 + 1.0);
                 let row = m.m21 * x[i] + m.m22 * y[i] + (m.m23 + 1.0);
@@ -207,12 +207,12 @@ impl RunLengthImage {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PointBlocks {
     /// x and y coordinates; the last block is padded with points outside of any image.
-    blocks: Vec<[[f32; BLOCK]; 2]>,
+    blocks: Vec<[[f32; BLOCK_POINTS]; 2]>,
     num: usize,
 }
 
 /// Points per block.
-const BLOCK: usize = 16;
+const BLOCK_POINTS: usize = 16;
 
 impl PointBlocks {
     /// The number of points.
@@ -225,9 +225,9 @@ impl FromIterator<Point2<f32>> for PointBlocks {
     fn from_iter<I: IntoIterator<Item = Point2<f32>>>(points: I) -> Self {
         let mut all = Self::default();
         for point in points {
-            let place = all.num % BLOCK;
+            let place = all.num % BLOCK_POINTS;
             if place == 0 {
-                all.blocks.push([[f32::INFINITY; BLOCK]; 2]);
+                all.blocks.push([[f32::INFINITY; BLOCK_POINTS]; 2]);
             }
             if let Some([x, y]) = all.blocks.last_mut() {
                 (x[place], y[place]) = (point.x, point.y);

@@ -27,7 +27,7 @@ type Table = Arc<Vec<[f32; 2]>>;
 /// Cached tables by camera, most recently used first: a cell has one or two cameras.
 static KNOWN: Mutex<Vec<(Intrinsics, Table)>> = Mutex::new(Vec::new());
 /// Maximum number of cached tables; one of 0.3 million pixels takes 2.5 MB.
-const MAX_KNOWN: usize = 4;
+const MAX_TABLES: usize = 4;
 
 impl Rays {
     /// Returns the rays of a camera. With lens distortion the first call takes tens of milliseconds; later calls
@@ -84,15 +84,15 @@ impl Rays {
 fn known(camera: &Intrinsics) -> Table {
     let lock = || lock(&KNOWN);
     let mut tables = lock();
-    if let Some(place) = tables.iter().position(|(of, _)| of == camera) {
-        tables[..=place].rotate_right(1);
+    if let Some(index) = tables.iter().position(|(of, _)| of == camera) {
+        tables[..=index].rotate_right(1);
         return Arc::clone(&tables[0].1);
     }
     // Compute without blocking other cameras; two threads may compute the same table.
     drop(tables);
     let table = Arc::new(table_of(camera));
     let mut tables = lock();
-    tables.truncate(MAX_KNOWN - 1);
+    tables.truncate(MAX_TABLES - 1);
     tables.insert(0, (*camera, Arc::clone(&table)));
     table
 }

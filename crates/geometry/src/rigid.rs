@@ -31,7 +31,7 @@ pub fn row_major(transform: &RigidTransform) -> [f64; 16] {
 /// (Frobenius norm of Rᵀ·R - 1), if it mirrors, does not end in 0 0 0 1, or is not finite.
 pub fn from_row_major(m: &[f64; 16], tolerance: f64) -> Option<RigidTransform> {
     /// Below this error the numbers are a rotation to the last digits and are used unchanged.
-    const EXACT: f64 = 1e-9;
+    const EXACT_MAX_ERROR: f64 = 1e-9;
     let rotation = Matrix3::new(m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]);
     let off = (rotation.transpose() * rotation - Matrix3::identity()).norm();
     let last = [m[12], m[13], m[14], m[15] - 1.0];
@@ -42,7 +42,7 @@ pub fn from_row_major(m: &[f64; 16], tolerance: f64) -> Option<RigidTransform> {
     if !is_rigid {
         return None;
     }
-    let rotation = if off < EXACT {
+    let rotation = if off < EXACT_MAX_ERROR {
         UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(rotation))
     } else {
         rotation_nearest_to(&rotation)?

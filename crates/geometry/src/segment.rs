@@ -13,9 +13,9 @@ pub struct Segment {
     pub to: Point3<f64>,
 }
 
-/// Minimum step along a segment beside a cloud, metres. It lets a distance d be overestimated by at most STEP² /
+/// Minimum step along a segment beside a cloud, metres. It lets a distance d be overestimated by at most MIN_STEP_M² /
 /// 8d: 0.1 mm at 100 mm.
-const STEP: f64 = 0.01;
+const MIN_STEP_M: f64 = 0.01;
 
 impl Segment {
     /// Returns the length, metres.
@@ -162,7 +162,7 @@ impl Segment {
             if rest <= 0.0 {
                 break;
             }
-            walked = (walked + (distance - best).max(STEP)).min(length);
+            walked = (walked + (distance - best).max(MIN_STEP_M)).min(length);
         }
         (best < within).then_some(best)
     }
@@ -311,7 +311,7 @@ mod tests {
         for _ in 0..500 {
             let any = segment(any_point(&mut random, 1.5), any_point(&mut random, 1.5));
             let slow = slow_distance(&points, &any);
-            let too_far = (slow * slow + STEP * STEP / 4.0).sqrt() + 1e-5;
+            let too_far = (slow * slow + MIN_STEP_M * MIN_STEP_M / 4.0).sqrt() + 1e-5;
             match any.distance_to_cloud(&tree, 0.1) {
                 Some(found) => {
                     num_near += 1;

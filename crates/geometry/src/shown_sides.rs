@@ -16,20 +16,20 @@ use crate::{
 /// Each is looked along both ways.
 const NUM_AXES: usize = 48;
 /// Pixels along the diagonal of the mesh.
-const NUM_PIXELS: f64 = 1000.0;
+const DIAGONAL_PIXELS: f64 = 1000.0;
 /// Depth by which a surface must be nearer to hide a point: less than the thickness of sheet metal.
-pub const MIN_HIDING: Metres = Metres(2e-4);
+pub const MIN_HIDING_DEPTH: Metres = Metres(2e-4);
 /// The same as a share of the mesh's diagonal, where rounding of large coordinates is more.
 const MIN_HIDING_SHARE: f64 = 2e-6;
 /// Slack of the test whether a pixel is in a triangle, so that no gap opens between neighbours.
 const EDGE_SLACK: f64 = 1e-9;
 /// Least cosine between the normal of a side and a direction that counts for it: at flatter angles a pixel spans much depth.
-const MIN_FACING: f64 = 0.4;
+const MIN_FACING_COSINE: f64 = 0.4;
 /// Share of the directions before a side that must show it. At an edge, a pixel may miss the surface that hides another.
 const MIN_SHOWN_SHARE: f64 = 0.15;
 
 /// Returns for each point on the surface, given with the unit normal of its triangle, whether a camera can see it from the side
-/// that the normal points to, and from the other side. What is nearer by less than `min_hiding` hides nothing: [`MIN_HIDING`] for
+/// that the normal points to, and from the other side. What is nearer by less than `min_hiding` hides nothing: [`MIN_HIDING_DEPTH`] for
 /// an exact mesh.
 pub fn shown_sides(
     mesh: &TriangleMesh,
@@ -87,7 +87,7 @@ impl DepthRange {
         let low = [0, 1].map(|along| bound(along, f64::min));
         let extent = [0, 1].map(|along| bound(along, f64::max) - low[along]);
         let diagonal = mesh.bounds().map_or(0.0, |(low, high)| (high - low).norm());
-        let pixel = f64::from(diagonal) / NUM_PIXELS;
+        let pixel = f64::from(diagonal) / DIAGONAL_PIXELS;
         let [width, height] = extent.map(|extent| (extent / pixel) as usize + 1);
         let mut range = Self {
             axis,
@@ -144,7 +144,7 @@ impl DepthRange {
     /// at too flat an angle.
     fn shows(&self, p: &Point3<f64>, normal: &Vector3<f64>) -> Option<[bool; 2]> {
         let along = normal.dot(&self.axis);
-        if along.abs() < MIN_FACING {
+        if along.abs() < MIN_FACING_COSINE {
             return None;
         }
         let at = [self.right.dot(&p.coords), self.down.dot(&p.coords)];
@@ -195,7 +195,7 @@ mod tests {
     fn shares(mesh: &TriangleMesh) -> [f64; 4] {
         let cloud = mesh.sample_evenly(4000, 1).expect("an area");
         let normals = cloud.normals.expect("normals");
-        let shown = shown_sides(mesh, &cloud.points, &normals, MIN_HIDING);
+        let shown = shown_sides(mesh, &cloud.points, &normals, MIN_HIDING_DEPTH);
         let share = |of: [bool; 2]| {
             let num = shown.iter().filter(|shown| **shown == of).count();
             num as f64 / shown.len() as f64

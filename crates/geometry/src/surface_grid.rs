@@ -9,21 +9,21 @@
 use nalgebra::{Matrix3, Point3, Vector3};
 
 /// Target for the mean number of points per cube.
-const PER_CUBE: f64 = 6.0;
+const POINTS_PER_CUBE: f64 = 6.0;
 /// Accepted ratio to that target, up or down.
-const CLOSE_ENOUGH: f64 = 1.3;
+const MAX_DENSITY_RATIO: f64 = 1.3;
 /// Bits of a cube's number along one axis.
 const BITS_PER_AXIS: u32 = 21;
-const LAST_ALONG: u64 = (1 << BITS_PER_AXIS) - 1;
+const MAX_CUBE_NUMBER: u64 = (1 << BITS_PER_AXIS) - 1;
 /// Marks an empty slot.
 const NOTHING: u32 = u32::MAX;
 /// Minimum number of points in a cube and its neighbours to look for an end.
-const LEAST_AROUND: f64 = 12.0;
+const MIN_POINTS_AROUND: f64 = 12.0;
 /// Offset of a cube's mean from which the surface ends there, in cube sides; a straight end gives half a side.
-const ASIDE: f64 = 0.33;
+const END_MIN_OFFSET_SIDES: f64 = 0.33;
 /// Half the width of the strip across an end of the surface, and how far it may reach beyond a cube's mean, in cube sides.
-const HALF_STRIP: f64 = 0.75;
-const MOST_BEYOND: f64 = 0.85;
+const STRIP_HALF_WIDTH_SIDES: f64 = 0.75;
+const STRIP_MAX_REACH_SIDES: f64 = 0.85;
 
 /// A point at which a surface ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -96,11 +96,11 @@ impl<'a> SurfaceGrid<'a> {
         let size = f64::from((high - low).amax()).max(f64::MIN_POSITIVE);
         let least = size / f64::from(1_u32 << (BITS_PER_AXIS - 1));
         // Assume a surface as large as its extent squared.
-        let mut side = size * (PER_CUBE / points.len().max(1) as f64).sqrt();
+        let mut side = size * (POINTS_PER_CUBE / points.len().max(1) as f64).sqrt();
         let mut cut = Cut::new(points, &low, side.max(least));
         for _ in 0..4 {
-            let off = PER_CUBE * cut.places.len() as f64 / points.len().max(1) as f64;
-            if (1.0 / CLOSE_ENOUGH..CLOSE_ENOUGH).contains(&off) {
+            let off = POINTS_PER_CUBE * cut.places.len() as f64 / points.len().max(1) as f64;
+            if (1.0 / MAX_DENSITY_RATIO..MAX_DENSITY_RATIO).contains(&off) {
                 break;
             }
             side = (side * off.sqrt()).max(least);
@@ -170,7 +170,8 @@ impl<'a> SurfaceGrid<'a> {
     fn within(&self, cube: &Cube, p: &Point3<f32>) -> Vector3<f32> {
         let at = (p - self.low) / self.side as f32;
         // Cubes are numbered from 1.
-        let middle = |axis: u32| ((cube.place >> (axis * BITS_PER_AXIS)) & LAST_ALONG) as f32 - 0.5;
+        let middle =
+            |axis: u32| ((cube.place >> (axis * BITS_PER_AXIS)) & MAX_CUBE_NUMBER) as f32 - 0.5;
         at - Vector3::new(middle(0), middle(1), middle(2))
     }
 
@@ -189,7 +190,7 @@ impl<'a> SurfaceGrid<'a> {
         }
         let mean = cube.moments.mean();
         let aside = mean - sum / num;
-        if num < LEAST_AROUND || aside.norm() < ASIDE * self.side {
+        if num < MIN_POINTS_AROUND || aside.norm() < END_MIN_OFFSET_SIDES * self.side {
             return None;
         }
         let mut moments = Moments::default();
@@ -198,7 +199,7 @@ impl<'a> SurfaceGrid<'a> {
         }
         let normal = moments.normal()?;
         let aside = aside - normal * normal.dot(&aside);
-        if aside.norm() < ASIDE * self.side {
+        if aside.norm() < END_MIN_OFFSET_SIDES * self.side {
             return None;
         }
         let out = aside.normalize();
@@ -209,7 +210,9 @@ impl<'a> SurfaceGrid<'a> {
             for &member in &self.members[first as usize..end as usize] {
                 let off = self.points[member as usize].coords.cast::<f64>() - mean;
                 let outwards = off.dot(&out);
-                if off.dot(&along).abs() < HALF_STRIP * self.side && outwards > -self.side {
+                if off.dot(&along).abs() < STRIP_HALF_WIDTH_SIDES * self.side
+                    && outwards > -self.side
+                {
                     top = top.max(outwards);
                     num_behind += 1.0;
                 }
@@ -217,7 +220,7 @@ impl<'a> SurfaceGrid<'a> {
         }
         // Extend the surface by the spacing of its points.
         let at = top + (top + self.side) / num_behind.max(1.0);
-        (top <= MOST_BEYOND * self.side).then(|| SurfaceEnd {
+        (top <= STRIP_MAX_REACH_SIDES * self.side).then(|| SurfaceEnd {
             at: Point3::from((mean + out * at).cast()),
             along: along.cast(),
         })

@@ -16,19 +16,14 @@ pub struct GivenPose {
 }
 
 /// A number of a pose that was probably meant in another unit.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, Advice)]
 #[error("{what} {word} is {value}; did you mean {meant}?")]
+#[advice = "Write the unit after the number: deg or rad, mm, cm or m"]
 pub struct UnitDoubt {
     what: &'static str,
     word: String,
     value: String,
     meant: String,
-}
-
-impl Advice for UnitDoubt {
-    fn advice(&self) -> String {
-        "Write the unit after the number: deg or rad, mm, cm or m".into()
-    }
 }
 
 /// Parses "rx ry rz x y z" as the paper writes its T1..T5 (eq. 15): radians and metres, R = Rz·Ry·Rx. A number may
@@ -71,7 +66,7 @@ const ANGLES: [(&str, f64); 3] = [
 const LENGTHS: [(&str, f64); 3] = [("mm", 0.001), ("cm", 0.01), ("m", 1.0)];
 
 /// Longest plausible length, metres: no cell is larger.
-const LONGEST: f64 = 10.0;
+const MAX_LENGTH_M: f64 = 10.0;
 
 /// Doubts an angle of more than a full turn, unless its unit was written.
 fn doubt_angle(word: &str, angle: Radians) -> Option<UnitDoubt> {
@@ -85,7 +80,7 @@ fn doubt_angle(word: &str, angle: Radians) -> Option<UnitDoubt> {
 }
 
 fn doubt_length(word: &str, length: Metres) -> Option<UnitDoubt> {
-    (length.0.abs() > LONGEST).then(|| UnitDoubt {
+    (length.0.abs() > MAX_LENGTH_M).then(|| UnitDoubt {
         what: "the length",
         word: word.to_owned(),
         value: format!("{:.0} m", length.0),

@@ -15,6 +15,7 @@
 mod ahead;
 mod expected;
 mod hypothesis;
+mod identification;
 pub mod live;
 mod mirror;
 mod misplaced;
@@ -59,6 +60,7 @@ use self::{
 };
 pub use self::{
     expected::{Expected, ExpectedError, ExpectedPart, places_of},
+    identification::Identification,
     mirror::{MirrorTally, OnlyMirrored},
     named_recipe::{
         AS_IN_THE_PAPER, BUILT_IN, BUILT_IN_RECIPES, MAX_NOTES, NamedRecipe, RecipeBlock,
@@ -67,7 +69,7 @@ pub use self::{
     recipe_error::RecipeError,
     recipe_folder::{RecipeFolder, RecipeList, Replace, open_recipe},
     refusal::{Refusal, RefusalKind},
-    rejection::{Rejection, Unrecognisable, is_like},
+    rejection::{Rejection, Unrecognisable},
     verdict::{AcceptParams, Verdict},
     watch::{Cancelled, ProgressObserver, Stage, Timings},
 };
@@ -397,7 +399,7 @@ fn inspect_part(
     let Some(segmentation) = clock.time(Stage::Segment, segment)? else {
         return Ok(None);
     };
-    let mut inspection = Inspection::of(segmentation, Unrecognisable::EmptyLibrary);
+    let mut inspection = Inspection::unrecognised(segmentation, Unrecognisable::EmptyLibrary);
     let segmentation = &inspection.segmentation;
     let part = segmentation.part.as_ref();
     let first = part.map(|part| ahead.inspect(segmentation, part, inputs));
@@ -414,7 +416,7 @@ fn inspect_part(
 
 impl Inspection {
     /// An inspection without the results of the stages after the segmentation.
-    fn of(segmentation: Segmentation, why: Unrecognisable) -> Self {
+    fn unrecognised(segmentation: Segmentation, why: Unrecognisable) -> Self {
         Self {
             segmentation,
             plane: None,
@@ -444,7 +446,7 @@ impl Inspection {
                 needed: 0,
             }),
         };
-        Self::of(segmentation, Unrecognisable::Fault(fault))
+        Self::unrecognised(segmentation, Unrecognisable::Fault(fault))
     }
 
     /// True if some of the part is outside the picture: of an accepted part, if some of its reference lies beyond the field of
@@ -513,6 +515,11 @@ impl Inspection {
     pub fn best_reference<'a>(&self, library: &'a Library) -> Option<&'a Reference> {
         let best = self.ranking.entries.first()?;
         library.references.get(best.reference)
+    }
+
+    /// The middle of the reference ranked first, part space, metres; `library` is the one that was used for the inspection.
+    pub fn middle(&self, library: &Library) -> Option<Point3<f64>> {
+        self.best_reference(library)?.middle()
     }
 
     fn best_score(&self) -> f64 {

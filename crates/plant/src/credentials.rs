@@ -18,49 +18,37 @@ const MAX_PASSWORD_BYTES: u64 = 4096;
 const MAX_CA_BYTES: u64 = 1 << 20;
 
 /// Why a password or certificates cannot be used.
-#[derive(Debug, Error)]
+#[derive(Debug, Error, Advice)]
 pub enum CredentialError {
     /// The file cannot be read.
     #[error(transparent)]
+    #[advice(transparent)]
     File(#[from] FileError),
     /// The password file is empty.
     #[error("{path}: the file holds no password")]
+    #[advice = "Write the password in the file's first line"]
     NoPassword {
         /// Path of the file.
         path: String,
     },
     /// The certificate file has no certificate.
     #[error("{path}: the file holds no certificate in PEM form")]
+    #[advice = "Give the certificate of the authority that signed the server's, as PEM"]
     NoCertificate {
         /// Path of the file.
         path: String,
     },
     /// The system's certificate store is empty.
     #[error("this system has no certificates to verify a server with")]
+    #[advice = "Name the certificate of the authority that signed the server's (--mqtt-ca, --database-ca)"]
     NoSystemCertificates,
     /// The TLS library rejects the configuration.
     #[error("encrypted connections cannot be prepared: {source}")]
+    #[advice = "Report this with the message"]
     Tls {
         /// The underlying error.
         source: rustls::Error,
     },
-}
-
-impl Advice for CredentialError {
-    fn advice(&self) -> String {
-        match self {
-            Self::File(error) => error.advice(),
-            Self::NoPassword { .. } => "Write the password in the file's first line".into(),
-            Self::NoCertificate { .. } => {
-                "Give the certificate of the authority that signed the server's, as PEM".into()
-            }
-            Self::NoSystemCertificates => {
-                "Name the certificate of the authority that signed the server's (--mqtt-ca, --database-ca)"
-                    .into()
-            }
-            Self::Tls { .. } => "Report this with the message".into(),
-        }
-    }
 }
 
 /// Reads a password: the first line of a file.

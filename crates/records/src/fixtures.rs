@@ -67,6 +67,7 @@ pub fn history_entry(seconds: i64, verdict: StoredVerdict, part: &str) -> NewEnt
                 thumbnail: Vec::new(),
                 origin: Some("{}".into()),
                 frame: None,
+                frame_loss: None,
             },
         },
         picture: Some(RgbImage::from_pixel(16, 12, image::Rgb([200, 150, 40]))),

@@ -11,8 +11,11 @@
 //! ```
 
 use std::{
-    collections::BTreeMap,
+    collections::{BTreeMap, BTreeSet},
+    fs,
     path::{Path, PathBuf},
+    sync::Arc,
+    time::{Duration, SystemTime},
 };
 
 use csv::{ReaderBuilder, StringRecord};
@@ -228,7 +231,9 @@ texts::display!(OrderError);
 pub struct Orders {
     path: PathBuf,
     /// The rows of each order by serial number; that of the other serial numbers is empty.
-    orders: BTreeMap<String, BTreeMap<String, Row>>,
+    rows: BTreeMap<String, BTreeMap<String, Row>>,
+    /// The orders that have a row for a serial number.
+    of_serial: BTreeMap<String, BTreeSet<String>>,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -271,7 +276,8 @@ impl Orders {
         let serial = place(OrderColumn::Serial)?;
         let mut table = Self {
             path: path.to_owned(),
-            orders: BTreeMap::new(),
+            rows: BTreeMap::new(),
+            of_serial: BTreeMap::new(),
         };
         let mut lines = LineCount::default();
         for row in rows {
@@ -313,7 +319,11 @@ impl Orders {
             if let Some(problem) = problem {
                 return Err(wrong(OrderColumn::Parts, problem));
             }
-            let rows = table.orders.entry(of_order).or_default();
+            if !of_serial.is_empty() {
+                let orders = table.of_serial.entry(of_serial.clone()).or_default();
+                orders.insert(of_order.clone());
+            }
+            let rows = table.rows.entry(of_order).or_default();
             if let Some(Row { line: first, .. }) = rows.get(&of_serial) {
                 let again = CellProblem::Again { first: *first };
                 return Err(wrong(OrderColumn::Order, again));
@@ -326,7 +336,7 @@ impl Orders {
                 },
             );
         }
-        if table.orders.is_empty() {
+        if table.rows.is_empty() {
             let path = path.to_owned();
             return Err(OrdersError::NoOrders { path });
         }
@@ -368,14 +378,14 @@ impl Orders {
         let unknown_serial = || OrderError::UnknownSerial {
             serial: serial.to_owned(),
         };
-        let mut with_serial = (self.orders.iter())
-            .filter_map(|(order, rows)| Some((order, rows.get(serial)?)))
-            .filter(|_| !serial.is_empty());
+        let mut with_serial = self.of_serial.get(serial).into_iter().flatten();
+        let row_of = |order: &String| self.rows.get(order)?.get(serial);
         if order.is_empty() {
             if serial.is_empty() {
                 return Err(OrderError::NotGiven);
             }
-            let (_, row) = with_serial.next().ok_or_else(unknown_serial)?;
+            let row = with_serial.next().and_then(row_of);
+            let row = row.ok_or_else(unknown_serial)?;
             return match with_serial.next() {
                 None => Ok(row),
                 Some(_) => Err(OrderError::SeveralOrders {
@@ -384,13 +394,13 @@ impl Orders {
             };
         }
         let order = order.to_owned();
-        let Some(rows) = self.orders.get(&order) else {
+        let Some(rows) = self.rows.get(&order) else {
             return Err(OrderError::UnknownOrder { order });
         };
         if let Some(row) = rows.get(serial) {
             return Ok(row);
         }
-        if let Some((other, _)) = with_serial.next() {
+        if let Some(other) = with_serial.next() {
             return Err(OrderError::OtherOrder {
                 serial: serial.to_owned(),
                 order,
@@ -404,6 +414,50 @@ impl Orders {
                 unknown_serial()
             }
         })
+    }
+}
+
+/// A table that is read again once its file has changed: a large one takes seconds.
+#[derive(Debug)]
+pub struct OrdersFile {
+    path: PathBuf,
+    /// The table, and what the file was like before it was read.
+    read: Option<(FileState, TableRead)>,
+}
+
+/// A table, or why it cannot be read.
+pub type TableRead = Result<Arc<Orders>, Arc<OrdersError>>;
+
+/// Length of a file, and when it was changed.
+type FileState = (u64, SystemTime);
+
+/// Some disks date their files in steps of 2 s: a younger file may have changed again.
+const SETTLED: Duration = Duration::from_secs(3);
+
+impl OrdersFile {
+    /// Refers to the table in this file, which need not exist. Reads nothing yet.
+    pub fn at(path: impl Into<PathBuf>) -> Self {
+        Self {
+            path: path.into(),
+            read: None,
+        }
+    }
+
+    /// The table as its file has it now. Without a change, it is the same in memory.
+    pub fn table(&mut self) -> TableRead {
+        let found = fs::metadata(&self.path).ok();
+        let now = found.and_then(|found| Some((found.len(), found.modified().ok()?)));
+        if let (Some((before, table)), Some(now)) = (&self.read, &now)
+            && before == now
+        {
+            return table.clone();
+        }
+        let table = Orders::read(&self.path).map(Arc::new).map_err(Arc::new);
+        let is_settled =
+            |(_, changed): &FileState| changed.elapsed().is_ok_and(|age| age > SETTLED);
+        let settled = now.filter(is_settled);
+        self.read = settled.map(|state| (state, table.clone()));
+        table
     }
 }
 

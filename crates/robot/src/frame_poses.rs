@@ -63,13 +63,15 @@ impl FramePose {
 }
 
 /// Why a file gives no pose for a frame.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Advice)]
 pub enum FramePosesError {
     /// The file cannot be read.
     #[error(transparent)]
+    #[advice(transparent)]
     File(#[from] FileError),
     /// The file is not JSON of the expected form.
     #[error("{}: {found}, expected {{\"frames\": {{\"NAME.png\": {{\"world_from_camera\": [16 numbers]}}}}}}", path.display())]
+    #[advice = "Write one entry per frame, as partsight help scan shows"]
     Format {
         /// The file.
         path: PathBuf,
@@ -78,6 +80,7 @@ pub enum FramePosesError {
     },
     /// An entry is not a pose.
     #[error("{}: {frame}: {found}", path.display())]
+    #[advice(found.advice())]
     Entry {
         /// The file.
         path: PathBuf,
@@ -88,6 +91,7 @@ pub enum FramePosesError {
     },
     /// The file has no entry for some frames.
     #[error("{}: no pose for {}", path.display(), listed(frames, *num_frames))]
+    #[advice = "Add the poses of these frames to the file, or move the frames out of the folder"]
     Missing {
         /// The file.
         path: PathBuf,
@@ -100,6 +104,7 @@ pub enum FramePosesError {
     #[error(
         "{frame}: the pose is the flange's, but no calibration says where the camera sits on it"
     )]
+    #[advice = "Give the hand-eye calibration with --scan-calibration, or make one: partsight calibrate hand-eye pairs.csv --mount eye-in-hand"]
     NoCalibration {
         /// The frame.
         frame: String,
@@ -108,6 +113,7 @@ pub enum FramePosesError {
     #[error(
         "{frame}: the pose is the flange's, but according to the calibration the camera stands in the cell"
     )]
+    #[advice = "Give the calibration of the camera on the flange (--mount eye-in-hand), or the camera's own poses as world_from_camera"]
     CameraIsFixed {
         /// The frame.
         frame: String,
@@ -115,64 +121,41 @@ pub enum FramePosesError {
 }
 
 /// Why an entry is not a pose.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error, Advice)]
 pub enum EntryProblem {
     /// None of the known fields.
     #[error("neither world_from_camera nor base_from_flange")]
+    #[advice = "Give world_from_camera, or base_from_flange together with a calibration"]
     NoPose,
     /// Both the camera's and the flange's pose, which may contradict each other.
     #[error("both a camera pose and a flange pose")]
+    #[advice = "Leave one of them out"]
     TwoPoses,
     /// Not 16 numbers.
     #[error("{found} numbers, expected the 16 of a 4×4 matrix")]
+    #[advice(ROW_AFTER_ROW)]
     Count {
         /// Number of numbers.
         found: usize,
     },
     /// The numbers are written column by column.
     #[error("the matrix ends with its shift: it is written column by column, expected row by row")]
+    #[advice(ROW_AFTER_ROW)]
     ColumnByColumn,
     /// The matrix also stretches or mirrors.
     #[error("the matrix is not rigid: it stretches, mirrors or does not end in 0 0 0 1")]
+    #[advice = "Write a rotation and a shift with at least 4 decimals; check rows against columns, and axes for a mirrored one"]
     NotRigid,
     /// Farther from the base than any robot reaches; probably millimetres.
     #[error("the camera is {metres:.0} m from the robot's base, expected metres")]
+    #[advice = "Divide the shift by 1000: it looks like millimetres"]
     FarAway {
         /// Distance from the base in metres.
         metres: f64,
     },
 }
 
-impl Advice for FramePosesError {
-    fn advice(&self) -> String {
-        match self {
-            Self::File(error) => error.advice(),
-            Self::Format { .. } => "Write one entry per frame, as partsight help scan shows".into(),
-            Self::Entry { found, .. } => match found {
-                EntryProblem::NoPose => {
-                    "Give world_from_camera, or base_from_flange together with a calibration".into()
-                }
-                EntryProblem::TwoPoses => "Leave one of them out".into(),
-                EntryProblem::Count { .. } | EntryProblem::ColumnByColumn => {
-                    "Write the 16 numbers of the matrix row after row".into()
-                }
-                EntryProblem::NotRigid => {
-                    "Write a rotation and a shift with at least 4 decimals; check rows against columns, and axes for a mirrored one".into()
-                }
-                EntryProblem::FarAway { .. } => "Divide the shift by 1000: it looks like millimetres".into(),
-            },
-            Self::Missing { .. } => {
-                "Add the poses of these frames to the file, or move the frames out of the folder".into()
-            }
-            Self::NoCalibration { .. } => {
-                "Give the hand-eye calibration with --scan-calibration, or make one: partsight calibrate hand-eye pairs.csv --mount eye-in-hand".into()
-            }
-            Self::CameraIsFixed { .. } => {
-                "Give the calibration of the camera on the flange (--mount eye-in-hand), or the camera's own poses as world_from_camera".into()
-            }
-        }
-    }
-}
+const ROW_AFTER_ROW: &str = "Write the 16 numbers of the matrix row after row";
 
 /// Number of frames listed by name; the others are only counted.
 const MAX_NAMES_SHOWN: usize = 3;

@@ -36,32 +36,26 @@ pub struct ObservedTarget {
 }
 
 /// Why a capture shows no target.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error, Advice)]
 pub enum NoTarget {
     /// The inspection was not accepted.
     #[error("not accepted: {reason}")]
+    #[advice(SHOW_PART)]
     NotAccepted {
         /// The reason given by the inspection.
         reason: String,
     },
     /// Accepted, but without a pose, or with an ambiguous or approximate one.
     #[error("its pose is not certain")]
+    #[advice(SHOW_PART)]
     NoPose,
     /// It is larger or smaller than its reference, so the camera's numbers are wrong.
     #[error(transparent)]
+    #[advice(transparent)]
     OffScale(OffScale),
 }
 
-impl Advice for NoTarget {
-    fn advice(&self) -> String {
-        match self {
-            Self::NotAccepted { .. } | Self::NoPose => {
-                "Show the camera all of the part from nearly in front, and capture again".into()
-            }
-            Self::OffScale(off) => off.advice(),
-        }
-    }
-}
+const SHOW_PART: &str = "Show the camera all of the part from nearly in front, and capture again";
 
 /// Returns the part of an accepted inspection of this scene as a target.
 pub fn seen_part(

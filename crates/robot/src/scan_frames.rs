@@ -49,37 +49,28 @@ pub enum FrameNews<'a> {
 }
 
 /// Why the frames of a scan or their poses cannot be read.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Advice)]
 pub enum ScanFramesError {
     /// A frame or the folder cannot be read.
     #[error(transparent)]
+    #[advice(transparent)]
     Frames(#[from] CaptureError),
     /// Neither the frames nor a file beside them have poses.
     #[error("no poses: neither the frames nor a {FRAME_POSES} beside them give the camera's poses")]
+    #[advice = "Give the file with --poses, or record the frames with partsight capture --robot-poses"]
     NoPoses,
     /// Poses are missing or unusable.
     #[error(transparent)]
+    #[advice(transparent)]
     Poses(#[from] FramePosesError),
     /// The poses are the flange's, and the calibration cannot be read.
     #[error("the poses are the flange's, but the calibration cannot be used: {0}")]
+    #[advice(transparent)]
     Calibration(#[from] CalibrationError),
     /// The caller cancelled.
     #[error("reading the frames was cancelled")]
+    #[advice = "Start it again"]
     Cancelled,
-}
-
-impl Advice for ScanFramesError {
-    fn advice(&self) -> String {
-        match self {
-            Self::Frames(error) => error.advice(),
-            Self::NoPoses => {
-                "Give the file with --poses, or record the frames with partsight capture --robot-poses".into()
-            }
-            Self::Poses(error) => error.advice(),
-            Self::Calibration(error) => error.advice(),
-            Self::Cancelled => "Start it again".into(),
-        }
-    }
 }
 
 /// Reads the frames of one folder or recording, or the files given. `observer` receives the progress and may cancel.

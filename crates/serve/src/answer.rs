@@ -431,9 +431,9 @@ impl Inspected {
 
     /// The answers to a request about each part.
     pub(super) fn answers(&self, request: &Request, at: &Situation) -> Vec<Answer> {
-        let places = 0..self.found.iter().count();
-        places
-            .map(|place| Answer::of(request, self, place, at))
+        let indices = 0..self.found.iter().count();
+        indices
+            .map(|index| Answer::of(request, self, index, at))
             .collect()
     }
 

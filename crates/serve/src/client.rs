@@ -11,15 +11,15 @@ use super::{
     answer::{Answer, Problem, VerdictCode},
     listen::Listener,
     protocol::bad_request::BadRequest,
-    server::{ClientMemory, ClientNews, Job, LINGER, Shared, WRITE_TIMEOUT, answer_to},
+    server::{ClientMemory, ClientNews, Job, LINGER_TIME, Shared, WRITE_TIMEOUT, answer_to},
 };
 
 /// Read timeout, after which a silent client's time limits are checked.
-const TURN: Duration = Duration::from_millis(100);
+const READ_TIMEOUT: Duration = Duration::from_millis(100);
 /// Bytes per read. A parser keeps at most one incomplete request, so this plus one request bounds a client's memory.
-const CHUNK: usize = 512;
+const CHUNK_BYTES: usize = 512;
 /// Most bytes of a refused client that are read and discarded.
-const MAX_DISCARDED: usize = 1 << 20;
+const MAX_DISCARDED_BYTES: usize = 1 << 20;
 
 /// A connection and what is needed to answer it.
 pub(super) struct Client {
@@ -59,11 +59,11 @@ impl Client {
     fn talk(&self) -> io::Result<EndReason> {
         self.stream.set_nonblocking(false)?;
         self.stream.set_nodelay(true)?;
-        self.stream.set_read_timeout(Some(TURN))?;
+        self.stream.set_read_timeout(Some(READ_TIMEOUT))?;
         self.stream.set_write_timeout(Some(WRITE_TIMEOUT))?;
         let settings = self.shared.settings;
         let mut bytes: Vec<u8> = Vec::new();
-        let mut chunk = [0; CHUNK];
+        let mut chunk = [0; CHUNK_BYTES];
         let mut last_answer = Instant::now();
         // When the pending incomplete request began.
         let mut begun: Option<Instant> = None;
@@ -127,10 +127,10 @@ impl Client {
         self.send(&Answer::turned_away(VerdictCode::BadRequest, problem, &at))?;
         self.stream.shutdown(Shutdown::Write)?;
         let since = Instant::now();
-        let mut chunk = [0; CHUNK];
+        let mut chunk = [0; CHUNK_BYTES];
         let mut num_discarded = 0;
-        while since.elapsed() < LINGER
-            && num_discarded < MAX_DISCARDED
+        while since.elapsed() < LINGER_TIME
+            && num_discarded < MAX_DISCARDED_BYTES
             && !self.shared.is_stopping()
         {
             match (&*self.stream).read(&mut chunk) {

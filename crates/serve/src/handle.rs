@@ -116,15 +116,15 @@ impl ServerHandle {
     /// The inspection with this sequence number and its whole path, which is empty unless the pose may be used.
     pub fn path(&self, sequence: u32) -> (Answer, Vec<PathStep>) {
         let at = self.shared.situation();
-        let (inspected, place) = match inspection_of(Some(sequence), None, &self.shared) {
+        let (inspected, index) = match inspection_of(Some(sequence), None, &self.shared) {
             Ok(found) => found,
             Err(problem) => {
                 let refused = Answer::turned_away(VerdictCode::BadRequest, problem, &at);
                 return (refused, Vec::new());
             }
         };
-        let answer = Answer::of(&Request::Last, &inspected, place, &at);
-        let found = inspected.found.get(place);
+        let answer = Answer::of(&Request::Last, &inspected, index, &at);
+        let found = inspected.found.get(index);
         let path = found.filter(|_| answer.verdict == VerdictCode::Accepted);
         let path = path.map_or_else(Vec::new, |found| found.path.clone());
         (answer, path)

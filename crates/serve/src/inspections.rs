@@ -53,9 +53,9 @@ impl Inspections {
     pub(super) fn find(&self, sequence: u32) -> Option<(Arc<Inspected>, usize)> {
         let mut newest_first = self.kept.iter().rev();
         newest_first.find_map(|inspected| {
-            let mut places = 0..inspected.found.iter().count();
-            let place = places.find(|place| inspected.sequence_of(*place) == sequence)?;
-            Some((Arc::clone(inspected), place))
+            let mut indices = 0..inspected.found.iter().count();
+            let index = indices.find(|index| inspected.sequence_of(*index) == sequence)?;
+            Some((Arc::clone(inspected), index))
         })
     }
 
@@ -143,20 +143,20 @@ mod tests {
         assert_eq!(inspections.add(accepted()).sequence, 1);
         assert_eq!(inspections.add(several(3)).sequence, 2);
         assert_eq!(inspections.add(accepted()).sequence, 5);
-        let place = |sequence| {
+        let found = |sequence| {
             inspections
                 .find(sequence)
-                .map(|(frame, place)| (frame.sequence, place))
+                .map(|(frame, index)| (frame.sequence, index))
         };
-        let places = [1, 2, 3, 4, 5, 6].map(place);
+        let found_at = [1, 2, 3, 4, 5, 6].map(found);
         let expected = [(1, 0), (2, 0), (2, 1), (2, 2), (5, 0)].map(Some);
-        assert_eq!(places[..5], expected);
-        assert_eq!(places[5], None);
+        assert_eq!(found_at[..5], expected);
+        assert_eq!(found_at[5], None);
         // Numbers go on from one within a frame too.
         inspections.sequence = MAX_COUNT - 2;
         let last = inspections.add(several(3));
         assert_eq!(
-            [0, 1, 2].map(|place| last.sequence_of(place)),
+            [0, 1, 2].map(|index| last.sequence_of(index)),
             [MAX_COUNT - 1, MAX_COUNT, 1]
         );
         assert_eq!(inspections.add(accepted()).sequence, 2);

@@ -25,34 +25,39 @@ pub struct ListenAddress {
 }
 
 /// Why a listen address cannot be used.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, Debug, PartialEq, Eq, Error, Advice)]
 pub enum ListenError {
     /// The text is not of the form `PROTOCOL=ADDRESS`.
     #[error("{text:?} is not a protocol and port")]
+    #[advice(WRITE_PORT)]
     Unreadable {
         /// The text as given.
         text: String,
     },
     /// The word before the equals sign is not a protocol.
     #[error("{found:?} is not a protocol, expected one of {}", Protocol::ALL.map(Protocol::name).join(", "))]
+    #[advice(WRITE_PORT)]
     UnknownProtocol {
         /// The word as given.
         found: String,
     },
     /// The text after the equals sign is not an address.
     #[error("{found:?} is neither a port nor an IP address with a port")]
+    #[advice = "Give a port from 1 to 65535, or the address of this computer's network card with it, for example 192.168.1.10:30100"]
     NoAddress {
         /// The text as given.
         found: String,
     },
     /// The protocol does not fix the convention, and none was chosen.
     #[error("{} has no convention of its own for poses, and none is chosen", protocol.name())]
+    #[advice = "Choose with --as, for example --as fanuc; partsight report --conventions lists them"]
     NoConvention {
         /// The protocol that needs a convention.
         protocol: Protocol,
     },
     /// The convention has more numbers than a binary frame can hold.
     #[error("{} has {} numbers, but a frame of {} has room for {}", convention.title(), convention.names().len(), protocol.name(), MAX_NUMBERS)]
+    #[advice = "Choose another with --as, for example kuka or quaternion-xyzw"]
     TooManyNumbers {
         /// The binary protocol.
         protocol: Protocol,
@@ -61,24 +66,7 @@ pub enum ListenError {
     },
 }
 
-impl Advice for ListenError {
-    fn advice(&self) -> String {
-        match self {
-            Self::Unreadable { .. } | Self::UnknownProtocol { .. } => {
-                "Write PROTOCOL=PORT, for example ascii=30100, or PROTOCOL=IP:PORT".into()
-            }
-            Self::NoAddress { .. } => {
-                "Give a port from 1 to 65535, or the address of this computer's network card with it, for example 192.168.1.10:30100".into()
-            }
-            Self::NoConvention { .. } => {
-                "Choose with --as, for example --as fanuc; partsight report --conventions lists them".into()
-            }
-            Self::TooManyNumbers { .. } => {
-                "Choose another with --as, for example kuka or quaternion-xyzw".into()
-            }
-        }
-    }
-}
+const WRITE_PORT: &str = "Write PROTOCOL=PORT, for example ascii=30100, or PROTOCOL=IP:PORT";
 
 impl FromStr for ListenAddress {
     type Err = ListenError;

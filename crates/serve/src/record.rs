@@ -22,8 +22,8 @@ pub struct InspectionRecord {
 impl InspectionRecord {
     /// A record of each part of a frame.
     pub(super) fn of_all(inspected: &Inspected, at: &Situation) -> Vec<Self> {
-        let places = 0..inspected.found.iter().count();
-        places
+        let indices = 0..inspected.found.iter().count();
+        indices
             .map(|index| Self::of(inspected, index, at.clone()))
             .collect()
     }

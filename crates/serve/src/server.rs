@@ -36,15 +36,15 @@ use files::words_of;
 use geometry::error::{Advice, guarded, lock};
 
 /// How long the inspecting thread waits for a trigger before it calls [`Inspector::turn`] again.
-const TURN: Duration = Duration::from_millis(100);
+const POLL_INTERVAL: Duration = Duration::from_millis(100);
 /// How often a listener polls for connections: std's `accept` cannot be interrupted.
-const ACCEPT_TURN: Duration = Duration::from_millis(10);
+const ACCEPT_INTERVAL: Duration = Duration::from_millis(10);
 /// How long a refused connection stays open, so that its client can read why.
-pub(super) const LINGER: Duration = Duration::from_secs(1);
+pub(super) const LINGER_TIME: Duration = Duration::from_secs(1);
 /// Most refused connections that are kept open at a time.
 const MAX_TURNED_AWAY: usize = 64;
 /// How long a connection without a request keeps its place while others wait: a robot sends its request right away.
-const SILENT_GRACE: Duration = Duration::from_secs(1);
+const MAX_SILENCE: Duration = Duration::from_secs(1);
 /// How long a client may take to accept its answer before it is disconnected.
 pub(super) const WRITE_TIMEOUT: Duration = Duration::from_secs(5);
 /// Short, because the answer to a refused client fits into the socket's empty send buffer.
@@ -168,10 +168,18 @@ pub enum ClientNews {
 }
 
 /// Why a server cannot start.
-#[derive(Debug, Error)]
+#[derive(Debug, Error, Advice)]
 pub enum ServeError {
     /// The system refuses to listen at the address.
     #[error("cannot listen at {at}: {}", words_of_bind(source))]
+    #[advice(match source.kind() {
+        io::ErrorKind::AddrInUse => format!("End the other program, or choose another port with {option}"),
+        io::ErrorKind::AddrNotAvailable => {
+            "Give the address of a network card of this computer, or the port alone".into()
+        }
+        io::ErrorKind::PermissionDenied => "Choose a port from 1024 up".into(),
+        _ => format!("Choose another address with {option}"),
+    })]
     Bind {
         /// The address as given.
         at: String,
@@ -182,6 +190,7 @@ pub enum ServeError {
     },
     /// The system refuses a thread for a listener.
     #[error("the listener's thread cannot be started: {source}")]
+    #[advice = "Close other programs and start again"]
     NoThread {
         /// The underlying error.
         source: io::Error,
@@ -189,13 +198,15 @@ pub enum ServeError {
 }
 
 /// Why a trigger was not inspected.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error, Advice)]
 pub enum Unanswered {
     /// The service is ending.
     #[error("the service is stopping")]
+    #[advice = "Connect again once the service is running"]
     Stopping,
     /// Nobody waits for the answer any more.
     #[error("the client closed the connection before it was its turn")]
+    #[advice = "TRIGGER again, and keep the connection open, for sending too, until the answer has come"]
     Withdrawn,
 }
 
@@ -209,42 +220,12 @@ impl Unanswered {
     }
 }
 
-impl Advice for Unanswered {
-    fn advice(&self) -> String {
-        match self {
-            Self::Stopping => "Connect again once the service is running".into(),
-            Self::Withdrawn => {
-                "TRIGGER again, and keep the connection open, for sending too, until the answer has come"
-                    .into()
-            }
-        }
-    }
-}
-
 fn words_of_bind(error: &io::Error) -> String {
     match error.kind() {
         io::ErrorKind::AddrInUse => "another program listens at this port".into(),
         io::ErrorKind::AddrNotAvailable => "this computer does not have this address".into(),
         io::ErrorKind::PermissionDenied => "this port is reserved for the system".into(),
         _ => words_of(error),
-    }
-}
-
-impl Advice for ServeError {
-    fn advice(&self) -> String {
-        match self {
-            Self::Bind { source, option, .. } => match source.kind() {
-                io::ErrorKind::AddrInUse => {
-                    format!("End the other program, or choose another port with {option}")
-                }
-                io::ErrorKind::AddrNotAvailable => {
-                    "Give the address of a network card of this computer, or the port alone".into()
-                }
-                io::ErrorKind::PermissionDenied => "Choose a port from 1024 up".into(),
-                _ => format!("Choose another address with {option}"),
-            },
-            Self::NoThread { .. } => "Close other programs and start again".into(),
-        }
     }
 }
 
@@ -280,7 +261,7 @@ impl Shared {
 
     /// Closes the oldest connection without a request so far; false if there is none, or only since a moment ago.
     fn close_silent(&self) -> bool {
-        let oldest = lock(&self.silent).pop_front_if(|(since, _)| since.elapsed() > SILENT_GRACE);
+        let oldest = lock(&self.silent).pop_front_if(|(since, _)| since.elapsed() > MAX_SILENCE);
         // Its thread reads the end of the stream and ends. If this fails, the client has closed the connection.
         let closed = oldest.map(|(_, stream)| stream.shutdown(Shutdown::Both));
         closed.is_some()
@@ -434,7 +415,7 @@ impl Server {
         };
         while inspector.turn().is_continue() {
             // A timeout is the only error: the server itself keeps a sender.
-            if let Ok(job) = jobs.recv_timeout(TURN) {
+            if let Ok(job) = jobs.recv_timeout(POLL_INTERVAL) {
                 self.inspect(&job, inspector);
             }
         }
@@ -522,10 +503,10 @@ fn listen(listener: Listener, socket: &TcpListener, shared: &Arc<Shared>, jobs: 
     let mut clients: Vec<JoinHandle<()>> = Vec::new();
     let mut turned_away: VecDeque<(TcpStream, Instant)> = VecDeque::new();
     while !shared.is_stopping() {
-        turned_away.retain(|(_, since)| since.elapsed() < LINGER);
+        turned_away.retain(|(_, since)| since.elapsed() < LINGER_TIME);
         let Ok((stream, peer)) = socket.accept() else {
             // No connection, one that is gone again, or the system has no sockets left.
-            thread::sleep(ACCEPT_TURN);
+            thread::sleep(ACCEPT_INTERVAL);
             continue;
         };
         clients.retain(|client| !client.is_finished());
@@ -605,10 +586,10 @@ pub(super) fn answer_to(
     };
     let at = shared.situation();
     match inspected {
-        Ok((inspected, place)) => {
+        Ok((inspected, index)) => {
             let index = match request {
-                Request::Part { index, .. } => index.saturating_sub(1) as usize,
-                _ => place,
+                Request::Part { place, .. } => place.saturating_sub(1) as usize,
+                _ => index,
             };
             Answer::of(&request, &inspected, index, &at)
         }

@@ -26,14 +26,14 @@ pub(crate) struct ArmStates {
 }
 
 /// Longer than any delay that is not stale.
-const KEPT: Duration = Duration::from_secs(5);
+const MAX_STATE_AGE: Duration = Duration::from_secs(5);
 /// The arm is at rest while its flange moves by no more than this: metres and radians.
-const REST: (f64, f64) = (5e-5, 5e-5);
+const REST_MAX_MOTION_M_RAD: (f64, f64) = (5e-5, 5e-5);
 
 impl ArmStates {
     pub(crate) fn push(&mut self, state: &ArmState) {
         self.states.push_back((state.at, state.robot_from_flange));
-        while (self.states.front()).is_some_and(|(at, _)| *at + KEPT < state.at) {
+        while (self.states.front()).is_some_and(|(at, _)| *at + MAX_STATE_AGE < state.at) {
             self.states.pop_front();
         }
     }
@@ -62,7 +62,7 @@ impl ArmStates {
         let (_, now) = self.states.back()?;
         let still = self.states.iter().rev().take_while(|(_, pose)| {
             let off = pose_error(pose, now, &Point3::origin());
-            off.shift.0 <= REST.0 && off.rotation.0 <= REST.1
+            off.shift.0 <= REST_MAX_MOTION_M_RAD.0 && off.rotation.0 <= REST_MAX_MOTION_M_RAD.1
         });
         still.last().map(|(at, _)| *at)
     }

@@ -48,16 +48,16 @@ struct RestLook {
 
 /// A look counts while the camera would see the part at most this far from where it saw it then: over this way a wrong
 /// calibration, by 20 mm and 2°, adds less than half a millimetre.
-const SAME_VIEW: PoseDelta = PoseDelta {
+const SAME_VIEW_MAX_MOVE: PoseDelta = PoseDelta {
     shift: Metres(0.003),
     rotation: Radians(0.0052),
 };
 /// Most looks that count: those of ten stops.
-const MOST_LOOKS: usize = 60;
+const MAX_LOOKS: usize = 60;
 /// If the means of two stops are apart by more than this share of what noise explains in 95 of 100, the part has crept. At 1,
 /// noise alone would count as creeping at one stop in ten, at 1.5 at one in a thousand; and a part that creeps by less moves the
 /// mean by at most 0.6 of the bounds of a single look, which the end allows for in full.
-const CREPT: f64 = 1.5;
+const CREEP_MIN_RATIO: f64 = 1.5;
 
 /// The looks have been found plausible: none is left out.
 const ANY: PoseTolerance = PoseTolerance {
@@ -91,7 +91,7 @@ impl RestLooks {
         self.looks.retain(|look| {
             let now = task.seen_from(robot_from_flange, &look.in_place);
             let way = pose_error(&look.seen.camera_from_part, &now, &task.middle);
-            is_within(&way, &SAME_VIEW)
+            is_within(&way, &SAME_VIEW_MAX_MOVE)
         });
         let in_place = task.part_in_place(robot_from_flange, &seen.camera_from_part);
         let mut moved = None;
@@ -107,7 +107,7 @@ impl RestLooks {
                 moved = Some(apart);
             }
         }
-        if self.looks.len() == MOST_LOOKS {
+        if self.looks.len() == MAX_LOOKS {
             self.looks.remove(0);
         }
         self.looks.push(RestLook {
@@ -134,7 +134,7 @@ impl RestLooks {
         if let (Some(before), Some(now)) = (mean_place(old, task), mean_place(new, task)) {
             let share = (1.0 / num_old as f64 + 1.0 / num_new as f64).sqrt();
             let apart = pose_error(&before, &now, &task.middle);
-            if !is_within(&apart, &scaled(&mean_bounds(new), CREPT * share)) {
+            if !is_within(&apart, &scaled(&mean_bounds(new), CREEP_MIN_RATIO * share)) {
                 self.looks.drain(..num_old);
             }
         }

@@ -42,7 +42,7 @@ pub struct Fence {
 }
 
 /// A part that moves by less than this is not placed anew: metres and radians.
-const PLACED_ANEW: (f64, f64) = (0.002, 0.002);
+const MIN_MOVE_M_RAD: (f64, f64) = (0.002, 0.002);
 
 impl Fence {
     /// A fence without bounds.
@@ -80,7 +80,7 @@ impl Fence {
     pub(crate) fn place_part(&mut self, robot_from_part: &RigidTransform, middle: &Point3<f64>) {
         let is_there = self.placed.is_some_and(|placed| {
             let off = pose_error(&placed, robot_from_part, middle);
-            off.shift.0 <= PLACED_ANEW.0 && off.rotation.0 <= PLACED_ANEW.1
+            off.shift.0 <= MIN_MOVE_M_RAD.0 && off.rotation.0 <= MIN_MOVE_M_RAD.1
         });
         if is_there || self.part.is_empty() {
             return;

@@ -6,7 +6,7 @@ use crate::{Limits, Twist};
 use geometry::rigid::RigidTransform;
 
 /// Margin to the limits: commanded poses are compared with them by differences of positions over a step.
-const MARGIN: f64 = 0.98;
+const SHARE_OF_LIMITS: f64 = 0.98;
 
 /// The commanded pose of the flange and its velocity.
 #[derive(Clone, Debug)]
@@ -50,7 +50,7 @@ impl Mover {
             angular,
         };
         let (speed, turn) = self.most_of(&wanted);
-        let too_fast = (speed / limits.speed).max(turn / limits.turn_speed) / MARGIN;
+        let too_fast = (speed / limits.speed).max(turn / limits.turn_speed) / SHARE_OF_LIMITS;
         wanted.scaled(1.0 / too_fast.max(1.0))
     }
 
@@ -60,7 +60,7 @@ impl Mover {
         let (speed, turn) = self.most_of(&change);
         let too_much = (speed / (limits.acceleration_left() * dt))
             .max(turn / (limits.turn_acceleration * dt))
-            / MARGIN;
+            / SHARE_OF_LIMITS;
         self.velocity = if too_much <= 1.0 {
             *wanted
         } else {
@@ -73,7 +73,7 @@ impl Mover {
     pub(crate) fn braked(&self, limits: &Limits) -> RigidTransform {
         let (speed, turn) = self.most_of(&self.velocity);
         let time = (speed / limits.acceleration_left()).max(turn / limits.turn_acceleration);
-        self.after(0.5 * time / MARGIN)
+        self.after(0.5 * time / SHARE_OF_LIMITS)
     }
 
     fn after(&self, seconds: f64) -> RigidTransform {
@@ -106,7 +106,7 @@ mod tests {
     use super::*;
     use geometry::rigid::from_euler_zyx;
 
-    const DT: f64 = 0.012;
+    const PERIOD_S: f64 = 0.012;
 
     /// Moves to one goal after the other, changed while it moves, and returns the poses.
     fn moved(mover: &mut Mover, limits: &Limits, seed: u64) -> Vec<RigidTransform> {
@@ -118,9 +118,10 @@ mod tests {
             let by = from_euler_zyx([0.4, 0.4, 0.4, 0.3, 0.3, 0.3].map(&mut draw));
             let goal = mover.robot_from_flange * control * by;
             for _ in 0..random.random_range(1..120) {
-                let error = Twist::of(&((mover.robot_from_flange * control).inverse() * goal));
+                let error =
+                    Twist::from_transform(&((mover.robot_from_flange * control).inverse() * goal));
                 let wanted = mover.towards(&error, &control, 2.0, limits);
-                mover.advance(&wanted, limits, DT);
+                mover.advance(&wanted, limits, PERIOD_S);
                 poses.push(mover.robot_from_flange);
             }
         }
@@ -146,17 +147,17 @@ mod tests {
                 let at: Vec<Vector3<f64>> = poses.iter().map(|p| (p * point).coords).collect();
                 for three in at.windows(3) {
                     let (first, second) = (three[1] - three[0], three[2] - three[1]);
-                    most[0] = most[0].max(first.norm() / DT);
-                    most[1] = most[1].max((second - first).norm() / (DT * DT));
+                    most[0] = most[0].max(first.norm() / PERIOD_S);
+                    most[1] = most[1].max((second - first).norm() / (PERIOD_S * PERIOD_S));
                 }
             }
             for three in poses.windows(3) {
                 let turn = |a: &RigidTransform, b: &RigidTransform| {
-                    (b.rotation * a.rotation.inverse()).scaled_axis() / DT
+                    (b.rotation * a.rotation.inverse()).scaled_axis() / PERIOD_S
                 };
                 let (first, second) = (turn(&three[0], &three[1]), turn(&three[1], &three[2]));
                 most[2] = most[2].max(first.norm());
-                most[3] = most[3].max((second - first).norm() / DT);
+                most[3] = most[3].max((second - first).norm() / PERIOD_S);
             }
         }
         let [speed, acceleration, turn_speed, turn_acceleration] = most;
@@ -182,14 +183,14 @@ mod tests {
         let mut last = f64::INFINITY;
         for _ in 0..2000 {
             let now = mover.robot_from_flange * control;
-            let error = Twist::of(&(now.inverse() * goal));
+            let error = Twist::from_transform(&(now.inverse() * goal));
             let size = error.size();
             assert!(size.shift.0 <= last + 1e-9);
             last = size.shift.0;
             let off = now.translation.vector - from.vector;
             assert!((off - line * off.dot(&line)).norm() < 0.002, "{off}");
             let wanted = mover.towards(&error, &control, 2.0, &limits);
-            mover.advance(&wanted, &limits, DT);
+            mover.advance(&wanted, &limits, PERIOD_S);
         }
         assert!(last < 1e-6, "{last}");
     }

@@ -49,7 +49,7 @@ pub struct OnePose {
 }
 
 /// The way of a move is checked in steps of this, metres and radians.
-const WAY_STEP: (f64, f64) = (0.02, 0.035);
+const CHECK_STEP_M_RAD: (f64, f64) = (0.02, 0.035);
 
 impl OnePose {
     /// A run that has not begun. Moves are at most `max_move` long; of `params` those of the looks count, and `max_rounds`
@@ -271,7 +271,7 @@ impl OnePose {
         mut joints: Option<Joints>,
     ) -> Result<(), StopReason> {
         let way = pose_error(from, to, &Point3::origin());
-        let steps = (way.shift.0 / WAY_STEP.0).max(way.rotation.0 / WAY_STEP.1);
+        let steps = (way.shift.0 / CHECK_STEP_M_RAD.0).max(way.rotation.0 / CHECK_STEP_M_RAD.1);
         let steps = steps.ceil().max(1.0) as usize;
         for step in 1..=steps {
             let share = step as f64 / steps as f64;

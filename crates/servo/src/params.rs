@@ -114,8 +114,9 @@ impl Limits {
 }
 
 /// A parameter out of its range.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error, Advice)]
 #[error("{what} is {value}, expected {low} to {high}")]
+#[advice = "Set {what} to {low} to {high}"]
 pub struct ServoError {
     /// The parameter, with its unit.
     pub what: &'static str,
@@ -125,12 +126,6 @@ pub struct ServoError {
     pub low: f64,
     /// Greatest value.
     pub high: f64,
-}
-
-impl Advice for ServoError {
-    fn advice(&self) -> String {
-        format!("Set {} to {} to {}", self.what, self.low, self.high)
-    }
 }
 
 impl ServoParams {

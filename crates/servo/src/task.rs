@@ -81,10 +81,11 @@ impl Target {
 }
 
 /// Why a task cannot be done.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error, Advice)]
 pub enum TaskError {
     /// The path starts nearer to the part than it can be sprayed from, or farther.
     #[error("the path starts {stand_off} from the part; {nearest} to {farthest} coat well")]
+    #[advice = "Plan the path again at a stand-off within the band, or change the band (stand_off.nearest, stand_off.farthest)"]
     StandOff {
         /// Stand-off of the first point.
         stand_off: Metres,
@@ -95,21 +96,11 @@ pub enum TaskError {
     },
     /// A pose of the task is not finite.
     #[error("{what} is not finite")]
+    #[advice = "Measure the pose again, and enter it anew"]
     NotFinite {
         /// The pose.
         what: &'static str,
     },
-}
-
-impl Advice for TaskError {
-    fn advice(&self) -> String {
-        match self {
-            Self::StandOff { .. } => {
-                "Plan the path again at a stand-off within the band, or change the band (stand_off.nearest, stand_off.farthest)".into()
-            }
-            Self::NotFinite { .. } => "Measure the pose again, and enter it anew".into(),
-        }
-    }
 }
 
 /// Where the flange should go by one look at the part, and how far it is from there.
@@ -290,7 +281,7 @@ impl Task {
                 * control_from_goal
                 * flange_from_control.inverse(),
             flange_from_control,
-            error: Twist::of(&control_from_goal),
+            error: Twist::from_transform(&control_from_goal),
         }
     }
 
@@ -298,7 +289,7 @@ impl Task {
     pub(crate) fn error_at(robot_from_flange: &RigidTransform, goal: &Goal) -> Twist {
         let control = robot_from_flange * goal.flange_from_control;
         let wanted = goal.robot_from_flange * goal.flange_from_control;
-        Twist::of(&(control.inverse() * wanted))
+        Twist::from_transform(&(control.inverse() * wanted))
     }
 }
 

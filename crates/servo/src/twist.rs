@@ -24,14 +24,14 @@ impl Twist {
     };
 
     /// The shift and the rotation vector of a transform, along the axes of the frame that it leads to.
-    pub fn of(transform: &RigidTransform) -> Self {
+    pub fn from_transform(transform: &RigidTransform) -> Self {
         Self {
             linear: transform.translation.vector,
             angular: transform.rotation.scaled_axis(),
         }
     }
 
-    /// The transform with this shift and rotation vector; inverse of [`Self::of`].
+    /// The transform with this shift and rotation vector; inverse of [`Self::from_transform`].
     pub fn transform(&self) -> RigidTransform {
         RigidTransform::from_parts(
             Translation3::from(self.linear),
@@ -106,7 +106,7 @@ mod tests {
     #[test]
     fn a_transform_is_its_own_twist() {
         let pose = from_euler_zyx([0.4, -0.9, 2.0, 0.3, -0.1, 0.8]);
-        let back = Twist::of(&pose).transform();
+        let back = Twist::from_transform(&pose).transform();
         assert!((back.to_homogeneous() - pose.to_homogeneous()).norm() < 1e-12);
     }
 

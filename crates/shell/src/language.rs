@@ -6,9 +6,7 @@ use crate::inspection::source::CELL_SOURCE;
 use capture::SourceSpec;
 use inspection::{
     library::Side,
-    pipeline::{
-        AS_IN_THE_PAPER, AcceptParams, RecipeLabel, RefusalKind, Rejection, Verdict, is_like,
-    },
+    pipeline::{AS_IN_THE_PAPER, Identification, RecipeLabel, RefusalKind},
 };
 use records::history::{SceneTitle, ServoRun, ServoTargetKind, StoredVerdict, Summary};
 use robot::Convention;
@@ -29,54 +27,22 @@ pub fn accepted_or_not(is_accepted: bool) -> String {
     })
 }
 
-/// True if score and margin show which part it is. Whatever else speaks against it, such as its pose, it is called by its name.
-pub fn is_recognised([score, margin]: [f64; 2], accept: &AcceptParams) -> bool {
-    score >= accept.min_score && margin >= accept.min_margin
-}
-
-/// True if the headline calls the part by its name, accepted or not: its type is certain.
-pub fn is_called_by_name(verdict: &Verdict, accept: &AcceptParams) -> bool {
-    match verdict {
-        Verdict::NoPart(_) => false,
-        Verdict::Part {
-            rejected: None | Some(Rejection::AnotherMake { .. } | Rejection::AnotherModel { .. }),
-            ..
-        } => true,
-        Verdict::Part { score, margin, .. } => is_recognised([*score, *margin], accept),
-    }
-}
-
 /// Returns the title of an inspection.
 pub fn inspection_title(past: &Summary) -> String {
-    if let Some(part) = recognised_part(past) {
-        return text!("results-title-refused", part = part);
-    }
-    if let Some(part) = past.mirror_of() {
-        return mirror_image(part);
-    }
+    let found = past.identification();
     let part = &past.title;
-    match past.verdict {
-        StoredVerdict::Accepted => part.clone(),
-        StoredVerdict::Rejected => text!("results-title-not-recognised", part = part),
-        StoredVerdict::Unknown if past.score.is_some_and(|[score, _]| !is_like(score)) => {
-            text!("inspect-unknown-part")
+    match (found, found.heading(part, Language::current())) {
+        (Identification::Part, Some(part)) if past.verdict != StoredVerdict::Accepted => {
+            text!("results-title-refused", part = part)
         }
-        StoredVerdict::Unknown => text!("results-title-unknown", part = part),
-        StoredVerdict::NoPart => described(&past.verdict),
+        (_, Some(name)) => name,
+        (Identification::NotRecognised, None) => text!("results-title-not-recognised", part = part),
+        (Identification::Unknown { is_like: true }, None) => {
+            text!("results-title-unknown", part = part)
+        }
+        (Identification::NoPart, None) => described(&StoredVerdict::NoPart),
+        (_, None) => text!("inspect-unknown-part"),
     }
-}
-
-/// Says that it is the mirror image of this part.
-pub fn mirror_image(part: &str) -> String {
-    sentence(&described(&Message::new("mirror-image").with("part", part)))
-}
-
-/// Returns the title of a part that was recognised and yet not accepted. The limits of its recipe are not in the row: those
-/// of the built-in recipe decide.
-pub fn recognised_part(past: &Summary) -> Option<&str> {
-    let is_recognised = is_recognised(past.score?, &AcceptParams::default());
-    let is_refused = past.verdict == StoredVerdict::Rejected;
-    (is_refused && is_recognised).then_some(past.title.as_str())
 }
 
 /// Returns the title of a scene.
@@ -120,6 +86,10 @@ pub fn source_title(source: &str, is_simulated: bool) -> String {
 /// Returns the texts that the list shows for data, in lower case, each with what the search text has for them.
 pub fn searched_texts() -> Vec<[String; 2]> {
     let verdict = |verdict: StoredVerdict| (described(&verdict), format!("={}", verdict.name()));
+    let named = |found: Identification| {
+        let named = found.name("", Language::current());
+        named.unwrap_or_default()
+    };
     let both = [
         (numbered(""), "=simulated_frame ".to_owned()),
         (
@@ -131,7 +101,16 @@ pub fn searched_texts() -> Vec<[String; 2]> {
         (text!("shell-simulated-cell"), "\nsimulated".to_owned()),
         verdict(StoredVerdict::Rejected),
         verdict(StoredVerdict::Unknown),
-        (mirror_image(""), "=mirrored".to_owned()),
+        (
+            named(Identification::AnotherMake),
+            "=another_make".to_owned(),
+        ),
+        (
+            named(Identification::AnotherModel),
+            "=another_model".to_owned(),
+        ),
+        (named(Identification::MirrorImage), "=mirrored".to_owned()),
+        (named(Identification::OtherHalf), "=other_half".to_owned()),
         verdict(StoredVerdict::NoPart),
     ];
     both.map(|(shown, searched)| [shown.to_lowercase(), searched])
@@ -400,6 +379,49 @@ mod tests {
         assert_eq!(shown([0.97, 0.97]), "Door, left · not accepted");
         for score in [[0.89, 0.97], [0.97, 0.43]] {
             assert_eq!(shown(score), "Not recognised · nearest Door, left");
+        }
+    }
+
+    #[test]
+    fn what_is_of_another_make_or_the_image_of_a_part_is_called_so_in_the_list_and_found_by_it() {
+        let part = || "door".to_owned();
+        let (score, likeness) = (0.2, 0.7);
+        for (verdict, why, title) in [
+            (
+                StoredVerdict::Rejected,
+                Rejection::AnotherMake {
+                    part: part(),
+                    likeness,
+                },
+                "Door, left, another make",
+            ),
+            (
+                StoredVerdict::Unknown,
+                Rejection::MirroredImage {
+                    part: part(),
+                    score,
+                },
+                "Mirror image of Door, left",
+            ),
+            (
+                StoredVerdict::Unknown,
+                Rejection::OtherHalf {
+                    part: part(),
+                    score,
+                },
+                "Mirror image of the enrolled piece of Door, left",
+            ),
+        ] {
+            let mut past = refused_door(verdict).summary;
+            past.reason = Some(Refusal::Rejected(why).kind());
+            past.score = Some([score, 0.0]);
+            assert_eq!(inspection_title(&past), title);
+            let filter = Filter {
+                text: title.into(),
+                shown: searched_texts(),
+                ..Filter::default()
+            };
+            assert!(filter.passes(&past), "{title}");
         }
     }
 

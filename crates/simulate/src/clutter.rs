@@ -95,8 +95,8 @@ pub(super) fn plank(
     for (pixel, _) in
         (rendering.labels.iter().enumerate()).filter(|(_, l)| **l == SurfaceLabel::Part)
     {
-        let place = [pixel % small.width, pixel / small.width];
-        part_pixels[place[axis]] += 1;
+        let pixel = [pixel % small.width, pixel / small.width];
+        part_pixels[pixel[axis]] += 1;
     }
     let lines: Vec<usize> = if from_low_side {
         (0..num_lines).collect()

@@ -104,31 +104,22 @@ pub struct RackSetup {
 }
 
 /// Reason why there is no frame of a rack.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error, Advice)]
 pub enum RackError {
     /// Too few or too many places.
     #[error("a rack has 2 to 5 places, not {num_places}")]
+    #[advice(match num_places {
+        0 | 1 => "Ask for 2 to 5 places, or for a frame of a single part",
+        _ => "Ask for 2 to 5 places: more parts do not fit into a picture",
+    })]
     NumPlaces {
         /// The number asked for.
         num_places: usize,
     },
     /// The cell is a booth.
     #[error("a rack hangs only in a plain cell, not in a booth")]
+    #[advice = "Ask for a rack in a plain cell, or for a single part in a booth"]
     Booth,
-}
-
-impl Advice for RackError {
-    fn advice(&self) -> String {
-        match self {
-            Self::NumPlaces { num_places: 0 | 1 } => {
-                "Ask for 2 to 5 places, or for a frame of a single part".into()
-            }
-            Self::NumPlaces { .. } => {
-                "Ask for 2 to 5 places: more parts do not fit into a picture".into()
-            }
-            Self::Booth => "Ask for a rack in a plain cell, or for a single part in a booth".into(),
-        }
-    }
 }
 
 /// From this number of places on, parts that are much wider than high hang on end, and with more places drawn sets have no

@@ -377,8 +377,8 @@ impl PreparedScene<'_> {
             let mut others = rivals.iter().filter(|other| !is_expected(other));
             is_expected(one) && others.all(|other| lead(one, other).is_some_and(|lead| lead > 0.0))
         };
-        if let Some(place) = rivals[..num_firsts].iter().position(leads) {
-            rivals[..=place].rotate_right(1);
+        if let Some(index) = rivals[..num_firsts].iter().position(leads) {
+            rivals[..=index].rotate_right(1);
         }
     }
 
@@ -397,9 +397,9 @@ impl PreparedScene<'_> {
         } else {
             (best / most_gained).max(RUNNER_UP_MIN_SCORE)
         };
-        let refined = self.in_parallel(tried.len(), |place| {
-            let least = if place == 0 { least } else { least_of_others };
-            let tried = &tried[place];
+        let refined = self.in_parallel(tried.len(), |index| {
+            let least = if index == 0 { least } else { least_of_others };
+            let tried = &tried[index];
             let candidate = tried.candidate.as_ref().filter(|_| tried.score > least)?;
             refined(tried, candidate)
         });

@@ -48,7 +48,11 @@ const NEGLIGIBLE: f64 = 0.02;
 impl FieldOfView {
     /// Determines the field of view from a frame: the convex hull of the readings if they fill it up to its border,
     /// else the whole picture. `known` is the field of view found in another frame of the same camera.
-    pub fn of(grid: Grid, is_reading: impl Fn(usize) -> bool, known: Option<&Self>) -> Self {
+    pub fn from_readings(
+        grid: Grid,
+        is_reading: impl Fn(usize) -> bool,
+        known: Option<&Self>,
+    ) -> Self {
         let hull = hull_of_readings(grid, &is_reading);
         let is_inner =
             |rows: &Vec<[u32; 2]>| is_plausible(rows, grid) && !is_nearly_all(rows, grid);
@@ -328,7 +332,7 @@ mod tests {
             let (u, v) = (i % GRID.width, i / GRID.width);
             (70..90).contains(&u) && (50..60).contains(&v) || u < 34 && (40..80).contains(&v)
         };
-        let view = FieldOfView::of(GRID, |i| is_inside(i) && !is_hole(i), None);
+        let view = FieldOfView::from_readings(GRID, |i| is_inside(i) && !is_hole(i), None);
         assert!(view.is_inner());
         let truth = (0..GRID.num_cells()).filter(|&i| is_inside(i));
         // The shadow hides the bulge of the border there.
@@ -345,7 +349,7 @@ mod tests {
     #[test]
     fn a_picture_with_readings_up_to_its_edges_is_all_view() {
         let is_reading = |i: usize| i % 160 > 1 && !(40..60).contains(&(i / 160));
-        let view = FieldOfView::of(GRID, is_reading, None);
+        let view = FieldOfView::from_readings(GRID, is_reading, None);
         assert!(!view.is_inner() && view.contains(0, 0) && view.contains(159, 119));
         assert!(view.ends_at(3, 20, 3) && !view.ends_at(8, 20, 3));
     }
@@ -358,17 +362,17 @@ mod tests {
             (10..150).contains(&u) && (50..70).contains(&v)
                 || (70..90).contains(&u) && (5..115).contains(&v)
         };
-        assert!(!FieldOfView::of(GRID, small, None).is_inner());
-        assert!(!FieldOfView::of(GRID, cross, None).is_inner());
-        assert!(!FieldOfView::of(GRID, |_| false, None).is_inner());
+        assert!(!FieldOfView::from_readings(GRID, small, None).is_inner());
+        assert!(!FieldOfView::from_readings(GRID, cross, None).is_inner());
+        assert!(!FieldOfView::from_readings(GRID, |_| false, None).is_inner());
     }
 
     #[test]
     fn what_an_empty_cell_showed_is_known_of_a_frame_with_a_dark_side() {
-        let empty = FieldOfView::of(GRID, is_inside, None);
+        let empty = FieldOfView::from_readings(GRID, is_inside, None);
         let dark = |i: usize| is_inside(i) && i % GRID.width > 60;
-        let alone = FieldOfView::of(GRID, dark, None);
-        let known = FieldOfView::of(GRID, dark, Some(&empty));
+        let alone = FieldOfView::from_readings(GRID, dark, None);
+        let known = FieldOfView::from_readings(GRID, dark, Some(&empty));
         assert!(known.is_inner() && known.contains(30, 60) && !known.contains(10, 60));
         assert!(!alone.is_inner());
     }
@@ -376,8 +380,8 @@ mod tests {
     #[test]
     fn a_mirrored_view_is_that_of_the_mirrored_picture_and_keeps_what_is_known() {
         let turned = |i: usize| i / GRID.width * GRID.width + GRID.width - 1 - i % GRID.width;
-        let view = FieldOfView::of(GRID, is_inside, None);
-        let of_mirrored = FieldOfView::of(GRID, |i| is_inside(turned(i)), None);
+        let view = FieldOfView::from_readings(GRID, is_inside, None);
+        let of_mirrored = FieldOfView::from_readings(GRID, |i| is_inside(turned(i)), None);
         assert!(view != of_mirrored && view.is_inner());
         assert_eq!(view.mirrored(), of_mirrored);
         let mut dark = scene(|i| is_inside(i) && i % GRID.width > 60);

@@ -175,6 +175,13 @@ impl Rack {
         }
     }
 
+    /// The number of the place of this name, by its order in the rack, from 1.
+    pub fn number_of(&self, place: &str) -> Option<u32> {
+        let mut places = self.places.iter().zip(1..);
+        let (_, number) = places.find(|(known, _)| known.name == place)?;
+        Some(number)
+    }
+
     /// The place nearest to a part's middle, and its distance, metres; 0 within the place. `None` if no places are known.
     pub fn nearest_place(&self, middle: &Point3<f64>) -> Option<(&Place, f64)> {
         let places = self.places.iter();

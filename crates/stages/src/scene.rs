@@ -79,7 +79,7 @@ impl SceneCloud {
             let points = &self.cloud.points;
             let is_reading = |i: usize| points.get(i).is_some_and(is_finite);
             let of_cell = self.empty_cell.as_ref().map(|cell| cell.field_of_view());
-            FieldOfView::of(grid, is_reading, of_cell.or(self.known_view.as_deref()))
+            FieldOfView::from_readings(grid, is_reading, of_cell.or(self.known_view.as_deref()))
         }))
     }
 

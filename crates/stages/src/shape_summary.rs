@@ -40,11 +40,11 @@ impl ShapeSummary {
             .collect();
         let mut magnitudes = [0.0; NUM_FREQUENCIES + 1];
         let half = NUM_FREQUENCIES / 2;
-        for (place, square) in squares.iter().enumerate() {
-            let kept = if place <= half {
-                place
-            } else if squares.len() - place < half {
-                place + NUM_FREQUENCIES - squares.len()
+        for (index, square) in squares.iter().enumerate() {
+            let kept = if index <= half {
+                index
+            } else if squares.len() - index < half {
+                index + NUM_FREQUENCIES - squares.len()
             } else {
                 NUM_FREQUENCIES
             };

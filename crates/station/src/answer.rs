@@ -127,7 +127,7 @@ impl Answering<'_> {
         let inspected = |scene: &SceneCloud| {
             run_all(scene, self.library, &recipe, &Unwatched).expect("not cancelled")
         };
-        let middle_of = |part: &Inspection| part.best_reference(self.library)?.middle();
+        let middle_of = |part: &Inspection| part.middle(self.library);
         let (captured_at, at) = (self.camera.captured_at(&captured), time_of(&captured));
         let scene = scene_of(captured);
         let mut inspections = inspected(&scene);

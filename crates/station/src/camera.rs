@@ -19,7 +19,8 @@ use thiserror::Error;
 
 use super::motion::{MotionWatch, since_epoch, time_of};
 use capture::{
-    BackpressurePolicy, CaptureError, Captured, Feed, FeedItem, FeedState, FeedStatus, SourceSpec,
+    BackpressurePolicy, CaptureError, Captured, Feed, FeedItem, FeedState, FeedStatus,
+    SkippedCapture, SourceSpec,
 };
 use geometry::{
     clock,
@@ -34,10 +35,10 @@ use serve::{Asked, CameraState, CameraStatus, Problem, Unanswered};
 
 /// Least time between the two frames that must agree, if the scene was still until the first one. More would show slower
 /// motion and let robots wait longer.
-const APART: Duration = Duration::from_millis(150);
+const MIN_FRAME_INTERVAL: Duration = Duration::from_millis(150);
 
 /// How often a waiting trigger checks whether the service is ending.
-const TURN: Duration = Duration::from_millis(100);
+const POLL_INTERVAL: Duration = Duration::from_millis(100);
 
 /// Least difference between two clocks that counts: clocks that are set from one time server differ by less. It must be
 /// short, because a file from before a trigger may pass for a new one if its clock is fast by this much.
@@ -140,25 +141,34 @@ fn is_dated_after(captured: &Captured, asked: &Asked) -> bool {
 }
 
 /// Why a trigger got no frame.
-#[derive(Clone, Debug, Error)]
+#[derive(Clone, Debug, Error, Advice)]
 pub enum NoFrame {
     /// The camera is lost; reconnecting is automatic.
     #[error("{error}")]
+    #[advice(transparent)]
     Lost {
         /// The underlying error.
         error: Arc<CaptureError>,
     },
     /// The camera cannot be used until somebody intervenes.
     #[error("{error}")]
+    #[advice(transparent)]
     Failed {
         /// The underlying error.
         error: Arc<CaptureError>,
     },
     /// The source has no more frames.
     #[error("the source has ended")]
+    #[advice = "TRIGGER again: the source is being reopened"]
     Ended,
     /// No frame arrived in time.
     #[error("no frame arrived within {} s of the trigger", waited.as_secs_f64())]
+    #[advice(match rule {
+        NewFrame::WrittenAfter => {
+            "Have a new file written to the watched folder after each trigger; if that takes longer, raise --frame-timeout"
+        }
+        _ => "Check that the camera delivers frames; a slow one needs a longer --frame-timeout",
+    })]
     Late {
         /// How long the trigger waited.
         waited: Duration,
@@ -166,15 +176,12 @@ pub enum NoFrame {
         rule: NewFrame,
     },
     /// A frame arrived that cannot be read.
-    #[error("{name}: {error}")]
-    Unreadable {
-        /// Name of the frame, to show to the operator.
-        name: String,
-        /// The underlying error.
-        error: Arc<CaptureError>,
-    },
+    #[error("{0}")]
+    #[advice(_0.error.advice())]
+    Unreadable(SkippedCapture),
     /// A file was seen before it was written, by the clock of its disk.
     #[error("{name}: the clock of the disk is at least {:.1} s ahead of this computer's", ahead.as_secs_f64())]
+    #[advice = "Set both clocks from the same time server: otherwise the age of a file is not known"]
     ClockAhead {
         /// Name of the file.
         name: String,
@@ -183,15 +190,18 @@ pub enum NoFrame {
     },
     /// A count was sent, but no line is followed.
     #[error("a count was sent, but no line is followed")]
+    #[advice = "Start partsight serve with --line, or TRIGGER without a count"]
     NoLine,
     /// A part is expected by a number that no part has.
     #[error("no part has the number {number}")]
+    #[advice = "TRIGGER with numbers that partsight library list shows"]
     UnknownNumber {
         /// The number.
         number: u32,
     },
     /// A part is expected at a place by a number that no place has.
     #[error("the rack has {num_places} places, and none has the number {number}")]
+    #[advice = "TRIGGER with numbers of places by their order in the rack file, from 1; serve takes that with --rack"]
     UnknownPlace {
         /// The number.
         number: u32,
@@ -200,25 +210,24 @@ pub enum NoFrame {
     },
     /// The parts cannot be expected: two are at a place.
     #[error(transparent)]
+    #[advice(transparent)]
     Expected(#[from] ExpectedError),
     /// The table of orders does not say what is expected.
     #[error(transparent)]
+    #[advice(transparent)]
     Order(#[from] OrderError),
     /// The table of orders cannot be read.
     #[error(transparent)]
+    #[advice(transparent)]
     Orders(Arc<OrdersError>),
     /// An order is named, and there is no table of orders.
     #[error("an order is named, and there is no table of orders")]
+    #[advice = "Start serve with --orders, or open the table in the window; or TRIGGER with the numbers of the expected parts"]
     NoOrders,
     /// The service is ending.
     #[error(transparent)]
+    #[advice(transparent)]
     Unanswered(#[from] Unanswered),
-}
-
-impl From<OrdersError> for NoFrame {
-    fn from(error: OrdersError) -> Self {
-        Self::Orders(Arc::new(error))
-    }
 }
 
 impl NoFrame {
@@ -229,7 +238,7 @@ impl NoFrame {
             Self::Failed { .. } => "camera_failed",
             Self::Ended => "source_ended",
             Self::Late { .. } => "no_frame",
-            Self::Unreadable { .. } => "unreadable",
+            Self::Unreadable(_) => "unreadable",
             Self::ClockAhead { .. } => "clock_ahead",
             Self::NoLine => "no_line",
             Self::UnknownNumber { .. } => "unknown_number",
@@ -237,45 +246,6 @@ impl NoFrame {
             Self::Expected(_) => "place_twice",
             Self::Order(_) | Self::Orders(_) | Self::NoOrders => "not_known",
             Self::Unanswered(why) => why.reason(),
-        }
-    }
-}
-
-impl Advice for NoFrame {
-    fn advice(&self) -> String {
-        match self {
-            Self::Lost { error } | Self::Failed { error } | Self::Unreadable { error, .. } => {
-                error.advice()
-            }
-            Self::ClockAhead { .. } => {
-                "Set both clocks from the same time server: otherwise the age of a file is not known"
-                    .into()
-            }
-            Self::Ended => "TRIGGER again: the source is being reopened".into(),
-            Self::Late { rule: NewFrame::WrittenAfter, .. } => {
-                "Have a new file written to the watched folder after each trigger; if that takes longer, raise --frame-timeout"
-                    .into()
-            }
-            Self::Late { .. } => {
-                "Check that the camera delivers frames; a slow one needs a longer --frame-timeout"
-                    .into()
-            }
-            Self::NoLine => "Start partsight serve with --line, or TRIGGER without a count".into(),
-            Self::UnknownNumber { .. } => {
-                "TRIGGER with numbers that partsight library list shows".into()
-            }
-            Self::UnknownPlace { .. } => {
-                "TRIGGER with numbers of places by their order in the rack file, from 1; serve takes that with --rack"
-                    .into()
-            }
-            Self::Expected(why) => why.advice(),
-            Self::Order(why) => why.advice(),
-            Self::Orders(why) => why.advice(),
-            Self::NoOrders => {
-                "Start serve with --orders, or open the table in the window; or TRIGGER with the numbers of the expected parts"
-                    .into()
-            }
-            Self::Unanswered(why) => why.advice(),
         }
     }
 }
@@ -444,7 +414,7 @@ impl Camera {
                 refuse_all(inspections);
                 return Ok(true);
             }
-            MotionState::Steady { .. } => APART,
+            MotionState::Steady { .. } => MIN_FRAME_INTERVAL,
             MotionState::Watching => SteadyParams::default().settle,
         };
         let later = opened.wait(at_most, is_ending, |captured| {
@@ -513,17 +483,14 @@ impl Opened {
         while !is_ending() {
             // Read the status first, so that frames delivered just before the end are still taken.
             let status = self.feed.status();
-            match self.feed.wait(TURN) {
+            match self.feed.wait(POLL_INTERVAL) {
                 Some(FeedItem::Captured(captured)) => match is_wanted(&captured) {
                     Ok(true) => return Ok(captured),
                     Ok(false) => {}
                     Err(why) => unreadable = Some(why),
                 },
                 Some(FeedItem::Skipped(skipped)) => {
-                    unreadable = Some(NoFrame::Unreadable {
-                        name: skipped.name,
-                        error: skipped.error,
-                    });
+                    unreadable = Some(NoFrame::Unreadable(skipped));
                 }
                 None => match status.state {
                     FeedState::Lost { error } => return Err(NoFrame::Lost { error }),
@@ -557,15 +524,15 @@ mod tests {
 
     use super::*;
     use capture::{
-        CellScene, DepthSource, NextCapture, SimulatedCell, SimulatedSpec, SkippedCapture,
-        fixtures::captured,
+        CellScene, DepthSource, NextCapture, SimulatedCell, SimulatedSpec, fixtures::captured,
     };
+    use files::FileError;
     use geometry::rigid::RigidTransform;
     use inspection::{
         fixtures::shipped_library,
         pipeline::{Recipe, Unwatched, run},
     };
-    use stages::{reference::Reference, scene::scene_from_image};
+    use stages::scene::scene_from_image;
 
     /// Long enough for a busy machine; normally what is waited for comes at once.
     const PATIENCE: Duration = Duration::from_mins(1);
@@ -794,14 +761,22 @@ mod tests {
         let why = why.expect_err("unreadable");
         assert_eq!(why.reason(), "unreadable");
         assert!(why.to_string().contains("broken.pcd"), "{why}");
+        assert!(why.to_string().starts_with("broken.pcd: "), "{why}");
+        let of_file = NoFrame::Unreadable(SkippedCapture {
+            name: "broken.pcd".into(),
+            error: Arc::new(CaptureError::File(FileError::Empty {
+                path: "scans/broken.pcd".into(),
+            })),
+        });
+        assert_eq!(of_file.to_string(), "scans/broken.pcd: the file is empty");
         let why = camera.frame_after(&Asked::now(), PATIENCE, || true);
         assert_eq!(why.expect_err("ending").reason(), "stopping");
     }
 
     /// Frames per second of the line.
-    const RATE: f64 = 15.0;
+    const FRAME_RATE_HZ: f64 = 15.0;
     /// Seconds from one of its parts to the next.
-    const EVERY: f64 = 6.0;
+    const PART_INTERVAL_S: f64 = 6.0;
     /// Long enough for all of its frames on a busy machine.
     const LINE_PATIENCE: Duration = Duration::from_mins(30);
 
@@ -814,8 +789,10 @@ mod tests {
     impl Line {
         fn new() -> Self {
             let spec = SimulatedSpec {
-                scene: CellScene::Line { every: EVERY },
-                frames_per_second: RATE,
+                scene: CellScene::Line {
+                    every: PART_INTERVAL_S,
+                },
+                frames_per_second: FRAME_RATE_HZ,
                 ..SimulatedSpec::default()
             };
             Self {
@@ -836,7 +813,7 @@ mod tests {
 
         fn next(&mut self, _: Duration) -> Result<NextCapture, CaptureError> {
             self.number += 1;
-            let since = SignedDuration::from_secs_f64((self.number - 1) as f64 / RATE);
+            let since = SignedDuration::from_secs_f64((self.number - 1) as f64 / FRAME_RATE_HZ);
             let (image, truth) = self.cell.frame(self.number);
             Ok(NextCapture::Captured(Captured {
                 image,
@@ -869,7 +846,7 @@ mod tests {
         let watch = opened.motion.as_ref().expect("watched");
         let (mut num_accepted, mut num_moving) = (0, 0);
         // Every half second of one part, which comes in, rests from about 2 to 5.2 s, and leaves.
-        let (_, truth) = resting.frame((4.0 * RATE) as u64);
+        let (_, truth) = resting.frame((4.0 * FRAME_RATE_HZ) as u64);
         let rest = truth.expect("of one part").camera_from_part;
         for trigger in 0..12 {
             let due = Duration::from_millis(500 * trigger);
@@ -890,8 +867,7 @@ mod tests {
             let truth = Arc::clone(frame.truth.as_ref().expect("known"));
             let mut inspection = inspect(frame).remove(0);
             let was_accepted = inspection.verdict.is_accepted();
-            let middle = inspection.best_reference(&library);
-            let middle = middle.and_then(Reference::middle);
+            let middle = inspection.middle(&library);
             let checked = camera.refuse_if_moving(
                 taken_at,
                 slice::from_mut(&mut inspection),

@@ -13,7 +13,7 @@ use stages::{
 use texts::{Described, Message};
 
 /// A part captured longer ago than this may hang elsewhere by now.
-const STALE: Duration = Duration::from_mins(10);
+const MAX_CAPTURE_AGE: Duration = Duration::from_mins(10);
 
 /// Least difference between two clocks that counts. File systems round times by up to 2 s.
 const CLOCK_TOLERANCE: Duration = Duration::from_secs(5);
@@ -119,7 +119,7 @@ texts::display!(ClockAhead, Doubt);
 /// Returns the doubt about a capture of this time whose source is not followed: another part may hang there by now.
 pub fn age_doubt(captured: SystemTime) -> Option<Doubt> {
     match SystemTime::now().duration_since(captured) {
-        Ok(age) => (age > STALE).then_some(Doubt::Old),
+        Ok(age) => (age > MAX_CAPTURE_AGE).then_some(Doubt::Old),
         Err(error) => {
             let ahead = error.duration();
             (ahead > CLOCK_TOLERANCE).then_some(Doubt::ClockAhead(ClockAhead { ahead }))

@@ -192,9 +192,8 @@ impl PartFinder {
 
 /// The place of this name with its number, by its order in the rack.
 pub(super) fn numbered_place(rack: &Rack, name: Option<&str>) -> Option<RackPlace> {
-    let mut places = rack.places.iter().zip(1..);
-    let (place, number) = places.find(|(place, _)| Some(&*place.name) == name)?;
-    let name = place.name.clone();
+    let name = name?.to_owned();
+    let number = rack.number_of(&name)?;
     Some(RackPlace { number, name })
 }
 

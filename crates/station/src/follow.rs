@@ -369,7 +369,7 @@ mod tests {
                 let name = verdict.guess().unwrap_or_default().to_owned();
                 (seconds, name, verdict.is_accepted(), hung)
             };
-            let middle = |one: &Inspection| one.best_reference(&library)?.middle();
+            let middle = |one: &Inspection| one.middle(&library);
             rows.extend(followed.take(&scene, found, middle, &recipe, entry));
         }
         rows.extend(followed.end());

@@ -22,9 +22,9 @@ use inspection::pipeline::live::{MotionDetector, MotionState, SteadyParams};
 use stages::scene::scene_from_image;
 
 /// How long the thread waits for a frame before it checks whether to end.
-const TURN: Duration = Duration::from_millis(100);
+const POLL_INTERVAL: Duration = Duration::from_millis(100);
 /// Frames that follow sooner are not looked at: a faster camera shows no more of a motion.
-const MIN_APART: Duration = Duration::from_millis(25);
+const MIN_FRAME_INTERVAL: Duration = Duration::from_millis(25);
 /// Maximum time until the thread has seen a frame that has arrived: usually milliseconds, but more on a busy computer.
 const MAX_LAG: Duration = Duration::from_secs(3);
 
@@ -102,11 +102,11 @@ impl Seen {
         let mut detector = MotionDetector::new(SteadyParams::default());
         let mut looked_at: Option<Duration> = None;
         while !is_ending.load(Ordering::Relaxed) {
-            match feed.wait(TURN) {
+            match feed.wait(POLL_INTERVAL) {
                 Some(FeedItem::Captured(captured)) => {
                     let at = time_of(&captured);
                     let since = looked_at.and_then(|looked_at| at.checked_sub(looked_at));
-                    if since.is_none_or(|since| since >= MIN_APART) {
+                    if since.is_none_or(|since| since >= MIN_FRAME_INTERVAL) {
                         looked_at = Some(at);
                         detector.see(&scene_from_image(captured.image), at);
                     }

@@ -2,7 +2,9 @@
 
 use std::{io, path::PathBuf, sync::Arc};
 
-use records::history::{HistoryBuffer, HistoryEvent, NewEntry, ServoRecord, Writer};
+use records::history::{
+    HistoryBuffer, HistoryEvent, HungId, NewEntry, ServoRecord, TraceChange, Writer,
+};
 
 /// Records inspections.
 pub struct Recorder {
@@ -44,6 +46,11 @@ impl Recorder {
     /// Adds a run of servoing. Never waits.
     pub fn add_servo_run(&self, record: ServoRecord) {
         self.writer.add_servo_run(record);
+    }
+
+    /// Changes the traceability of a part after its verdict.
+    pub fn trace(&self, hung: HungId, change: TraceChange) {
+        self.writer.trace(hung, change);
     }
 
     /// Takes what happened to the history since the last call.

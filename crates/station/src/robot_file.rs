@@ -100,31 +100,24 @@ pub struct WrittenRobotFile {
 }
 
 /// Why no file was written.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Advice)]
 pub enum RobotFileError {
     /// There are doubts, the one to show first.
     #[error("{}", .0.first().map_or_else(String::new, ToString::to_string))]
+    #[advice(_0.first().map_or_else(String::new, Advice::advice))]
     Doubts(Vec<Doubt>),
     /// A file cannot be removed or written.
     #[error(transparent)]
+    #[advice(transparent)]
     File(#[from] FileError),
     /// The program cannot be written.
     #[error(transparent)]
+    #[advice(transparent)]
     Program(#[from] ProgramError),
     /// The arm cannot be checked.
     #[error(transparent)]
+    #[advice(transparent)]
     Arm(#[from] ArmError),
-}
-
-impl Advice for RobotFileError {
-    fn advice(&self) -> String {
-        match self {
-            Self::Doubts(doubts) => doubts.first().map_or_else(String::new, Advice::advice),
-            Self::File(error) => error.advice(),
-            Self::Program(error) => error.advice(),
-            Self::Arm(error) => error.advice(),
-        }
-    }
 }
 
 /// Something about a path that was not checked.

@@ -8,8 +8,6 @@ use std::{
     time::{Duration, Instant},
 };
 
-use nalgebra::Point3;
-
 use super::{Followed, Inspected, LineTracker, Moment, PartFollower, Subject};
 use inspection::{
     library::Library,
@@ -108,11 +106,6 @@ impl StationSetup {
             on_line: None,
         }
     }
-
-    /// Middle of the named part, part space, metres.
-    fn middle_of(&self, inspection: &Inspection) -> Option<Point3<f64>> {
-        inspection.best_reference(&self.library)?.middle()
-    }
 }
 
 impl<E> Station<E> {
@@ -184,7 +177,7 @@ impl<E> Station<E> {
                 let (followed, recorded) = line.see(
                     moment,
                     &mut parts,
-                    |part| setup.middle_of(part),
+                    |part| part.middle(&setup.library),
                     |_, part, on_line| {
                         let part = Inspected {
                             on_line,
@@ -299,7 +292,7 @@ impl<E> Station<E> {
         {
             let mut accepted = (scene.parts.iter_mut()).filter(|part| part.verdict.is_accepted());
             let is_settled = accepted.all(|part| {
-                let middle = self.setup.middle_of(part);
+                let middle = part.middle(&self.setup.library);
                 follower.settle(part, scene.at, last, middle)
             });
             if !is_settled {
@@ -345,7 +338,7 @@ impl<E> Station<E> {
         follower.take(
             &scene.scene,
             scene.parts.clone(),
-            |part| setup.middle_of(part),
+            |part| part.middle(&setup.library),
             &setup.recipe,
             |inspection, hung, is_still| {
                 let subject = Subject {

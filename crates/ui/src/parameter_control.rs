@@ -198,9 +198,9 @@ fn choice_ui<R: TranslatedParameters>(
     if each < widths.fold(64.0, f32::max) {
         let now = options.get(chosen).cloned().unwrap_or_default();
         ui.menu_button(format!("{now} ▼"), |ui| {
-            for (place, option) in options.iter().enumerate() {
-                if ui.selectable_label(place == chosen, option).clicked() {
-                    changed(ParameterChange::Set(place as f64));
+            for (index, option) in options.iter().enumerate() {
+                if ui.selectable_label(index == chosen, option).clicked() {
+                    changed(ParameterChange::Set(index as f64));
                     ui.close();
                 }
             }
@@ -212,15 +212,15 @@ fn choice_ui<R: TranslatedParameters>(
         });
         return;
     }
-    for (place, option) in options.iter().enumerate() {
-        let button = Button::selectable(place == chosen, option);
+    for (index, option) in options.iter().enumerate() {
+        let button = Button::selectable(index == chosen, option);
         let response = ui.add(button.min_size(vec2(each, space::TARGET)));
         response.widget_info(|| {
             let label = format!("{name}: {option}");
-            WidgetInfo::selected(egui::Role::Button, true, place == chosen, label)
+            WidgetInfo::selected(egui::Role::Button, true, index == chosen, label)
         });
-        if response.clicked() && place != chosen {
-            changed(ParameterChange::Set(place as f64));
+        if response.clicked() && index != chosen {
+            changed(ParameterChange::Set(index as f64));
         }
     }
 }

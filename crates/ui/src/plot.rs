@@ -223,15 +223,15 @@ impl RayCurves<'_> {
             axes.title.push((format!("{name}, {unit}"), colour));
             axes.up.marks = range.map(|value| (value, text(value))).to_vec();
             axes.read = Some(Box::new(move |x| {
-                let place = x.round().clamp(0.0, last) as usize;
+                let index = x.round().clamp(0.0, last) as usize;
                 let value = |values: &[f32]| {
-                    let value = values.get(place).copied();
+                    let value = values.get(index).copied();
                     value.map_or("–".to_owned(), |value| text(f64::from(value)))
                 };
                 let part = part.map_or("–".to_owned(), value);
                 text!(
                     "view-ray",
-                    place = place,
+                    index = index,
                     query = value(scene),
                     part = part,
                     unit = unit
@@ -279,10 +279,10 @@ pub fn over_time(
         ),
         font: font::small(),
         read: Some(Box::new(|across| {
-            let place = (across.round().max(0.0) as usize).min(at.len() - 1);
-            let at = at[place].strftime("%Y-%m-%d %H:%M:%S");
+            let index = (across.round().max(0.0) as usize).min(at.len() - 1);
+            let at = at[index].strftime("%Y-%m-%d %H:%M:%S");
             let values = curves.iter().map(|(name, values, _)| {
-                let value = f64::from(values[place]);
+                let value = f64::from(values[index]);
                 let value = if value.is_finite() {
                     written(value)
                 } else {
@@ -301,7 +301,7 @@ pub fn over_time(
                 .enumerate()
                 .filter(|(_, value)| value.is_finite());
             let points: PlotPoints<'_> = points
-                .map(|(place, value)| [place as f64, f64::from(*value)])
+                .map(|(index, value)| [index as f64, f64::from(*value)])
                 .collect();
             plot.line(Line::new("", points).color(*colour).width(1.4));
         }
@@ -413,7 +413,7 @@ fn dates(at: &[Zoned], step: usize) -> Vec<(f64, String)> {
     let written = |format: &str| -> Vec<(f64, String)> {
         let marked = at.iter().enumerate().step_by(step);
         marked
-            .map(|(place, at)| (place as f64, at.strftime(format).to_string()))
+            .map(|(index, at)| (index as f64, at.strftime(format).to_string()))
             .collect()
     };
     let mut dates = written("%m-%d %H:%M");

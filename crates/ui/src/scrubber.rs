@@ -34,7 +34,7 @@ pub struct Scrubber {
     /// Description of the keys, for a screen reader.
     pub keys: String,
     /// Position, 0..=`last`.
-    pub place: f64,
+    pub position: f64,
     /// The end of the line.
     pub last: f64,
 }
@@ -65,7 +65,7 @@ impl Scrubber {
             node.set_description(self.keys.clone());
             node.set_min_numeric_value(0.0);
             node.set_max_numeric_value(self.last);
-            node.set_numeric_value(self.place);
+            node.set_numeric_value(self.position);
             node.add_action(accesskit::Action::Increment);
             node.add_action(accesskit::Action::Decrement);
         });

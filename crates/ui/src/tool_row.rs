@@ -58,8 +58,8 @@ pub fn tool_row<A>(ui: &mut Ui, sets: Vec<Vec<Vec<Tool<A>>>>, actions: &mut Vec<
 }
 
 fn buttons<A>(ui: &mut Ui, groups: Vec<Vec<Tool<A>>>, actions: &mut Vec<A>) {
-    for (place, group) in groups.into_iter().enumerate() {
-        if place > 0 {
+    for (index, group) in groups.into_iter().enumerate() {
+        if index > 0 {
             ui.add_space(space::MEDIUM);
         }
         for tool in group {

@@ -316,7 +316,7 @@ pub fn wrapped_rows(
     loop {
         let rows = painter.layout(broken.clone(), font.clone(), colour, width);
         match marks_at_end(&rows) {
-            Some(place) => broken.insert(place, '\n'),
+            Some(offset) => broken.insert(offset, '\n'),
             None => return rows,
         }
     }
@@ -335,8 +335,8 @@ fn marks_at_end(rows: &Galley) -> Option<usize> {
         let num_marks = in_row.iter().rev().take_while(is_mark).count();
         let is_broken = !row.ends_with_newline && end < letters.len();
         if is_broken && 0 < num_marks && num_marks < in_row.len() {
-            let (place, _) = in_row.get(in_row.len() - num_marks)?;
-            return Some(*place);
+            let (offset, _) = in_row.get(in_row.len() - num_marks)?;
+            return Some(*offset);
         }
         begin = end + usize::from(row.ends_with_newline);
     }

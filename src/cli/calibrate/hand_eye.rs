@@ -32,19 +32,19 @@ Examples:
   partsight calibrate hand-eye pairs.csv --mount eye-to-hand --without p7 --out cell.toml
   partsight calibrate hand-eye poses.csv --captures captures/ --mount eye-to-hand
 
-PAIRS has a line for each pair: the robot's pose (robot_from_flange, as the controller shows the flange without a tool),
-then the camera's (camera_from_target: where the camera sees a target). With eye in hand the target stands in the cell,
+PAIRS has a line for each pair: the robot's pose (robot_from_flange, as the controller shows the flange without a tool), \
+then the camera's (camera_from_target: where the camera sees a target). With eye in hand the target stands in the cell, \
 with eye to hand it is on the flange. A name may precede the numbers, and lines at the top name the conventions:
 
   # robot: kuka                 X Y Z mm, A B C degrees
   # camera: rotation-vector     x y z m, rx ry rz; without this line a matrix of 16 numbers
   p1; 1450.2; -310.0; 890.5; 12.01; -45.2; 178.8; 0.1021; -0.0310; 1.2044; 0.31; -2.10; 0.02
 
-With --captures the target is any enrolled part, fixed where a target would be: PAIRS then has the robot's poses alone,
+With --captures the target is any enrolled part, fixed where a target would be: PAIRS then has the robot's poses alone, \
 each after the name of its capture in DIR (without names, in the order of the files).
 
-Take 8 to 15 pairs, the target in all parts of the picture, the flange turned about two different axes by 30 degrees and
-more; pairs that repeat a pose of the arm count as one. Exit codes: 0 written, 1 the poses do not determine the camera's
+Take 8 to 15 pairs, the target in all parts of the picture, the flange turned about two different axes by 30 degrees and \
+more; pairs that repeat a pose of the arm count as one. Exit codes: 0 written, 1 the poses do not determine the camera's \
 place or do not agree (nothing is written without --even-if-doubtful), 2 something could not be read.")]
 pub(super) struct HandEyeArgs {
     /// Pairs of poses: CSV or JSON

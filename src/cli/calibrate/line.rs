@@ -26,14 +26,14 @@ Examples:
   partsight calibrate line fender frames/*.png --counts counts.csv
   partsight calibrate line fender frames/*.png --counts counts.csv --counter-bits 16 --out line2.toml
 
-Let one enrolled part pass the camera slowly and evenly, without swinging, and take 5 frames or more that show it whole,
-from where it has come in to where it is about to leave. COUNTS has a line for each frame: its name, and the count of the
+Let one enrolled part pass the camera slowly and evenly, without swinging, and take 5 frames or more that show it whole, \
+from where it has come in to where it is about to leave. COUNTS has a line for each frame: its name, and the count of the \
 encoder when it was taken. Without names, the counts are those of the frames in their order.
 
   frame-01.png; 40211
   frame-02.png; 40893
 
-Frames that are not accepted, or show another part, are named and left out. Exit codes: 0 written, 2 the frames do not
+Frames that are not accepted, or show another part, are named and left out. Exit codes: 0 written, 2 the frames do not \
 determine the line, or something could not be read.")]
 pub(super) struct LineArgs {
     /// The enrolled part that passes

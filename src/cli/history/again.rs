@@ -7,10 +7,7 @@ use crate::cli::console::{Advised as _, Console, Table, advised_error};
 use geometry::units::{Metres, Radians};
 use inspection::pipeline::{Unwatched, run_all, scan::run_scan};
 use records::history::{Differences, History, InspectionSummary, ParameterChange, Record};
-use stages::{
-    reference::Reference,
-    scan::{ScanParams, assemble},
-};
+use stages::scan::{ScanParams, assemble};
 
 pub(super) fn run(
     history: &History,
@@ -44,12 +41,11 @@ pub(super) fn run(
             run_scan(&scan, library, &recipe, &Unwatched)?.inspection
         }
     };
-    let best = inspection.best_reference(library);
     let now = InspectionSummary::of(&inspection, &recipe.parameters, &load.identity());
     Ok(Differences::between(
         before,
         now,
-        best.and_then(Reference::middle),
+        inspection.middle(library),
     ))
 }
 

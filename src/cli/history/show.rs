@@ -9,14 +9,15 @@ use super::{ShowArgs, again, here};
 use crate::cli::{
     Outcome,
     console::{Advised as _, Console, Table, in_columns, marked_simulated},
+    verdict::what_hangs,
 };
 use inspection::{
     library::Truth,
-    pipeline::{ExpectedPart, RefusalKind, is_like},
+    pipeline::{ExpectedPart, RefusalKind},
 };
 use records::history::{
-    Differences, FrameRecord, History, InspectionDetail, InspectionSummary, Record, Summary,
-    Traceability,
+    Differences, FrameLoss, FrameRecord, History, InspectionDetail, InspectionSummary, Record,
+    Summary, Traceability,
 };
 use texts::Language;
 
@@ -110,6 +111,8 @@ struct RecordLine<'a> {
     #[serde(flatten)]
     used: UsedLine<'a>,
     frame: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    frame_loss: Option<FrameLoss>,
     /// Files of a scan's shots.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     shots: Vec<String>,
@@ -230,6 +233,7 @@ pub(crate) fn record_line(
         camera_from_part: record.matrix(),
         used: UsedLine::of(detail),
         frame: frame.and_then(|frame| from.path(frame)),
+        frame_loss: detail.frame_loss,
         shots: shot_paths(from, record),
         below: below.collect(),
         line: serde_json::from_str(&detail.line).ok(),
@@ -283,7 +287,9 @@ fn record_table(from: ReadFrom<'_>, record: &Record) -> Table {
         row(name, text.to_owned());
     }
     row("verdict", summary.verdict.to_string().to_lowercase());
-    row("part", summary.part.clone().unwrap_or_default());
+    if let Some(part) = &detail.nearest {
+        row("part", what_hangs(summary.identification(), part));
+    }
     row("place", detail.place().unwrap_or_default());
     row("rack", summary.rack.clone().unwrap_or_default());
     let words = |parts: &[ExpectedPart]| {
@@ -292,9 +298,6 @@ fn record_table(from: ReadFrom<'_>, record: &Record) -> Table {
     };
     row("expected", words(detail.expected().parts()));
     row("missing", words(&detail.missing().unwrap_or_default()));
-    if summary.part != detail.nearest && summary.score.is_none_or(|[score, _]| is_like(score)) {
-        row("nearest", detail.nearest.clone().unwrap_or_default());
-    }
     if let Some([score, margin]) = summary.score {
         row("score", format!("{score:.3}, margin {margin:.3}"));
     }
@@ -333,11 +336,13 @@ fn record_table(from: ReadFrom<'_>, record: &Record) -> Table {
         summary.label.as_ref().map_or("", Truth::name).to_owned(),
     );
     row("remark", summary.remark.clone());
-    let frame = detail.frame.as_ref().map(|frame| from.path(frame));
-    let frame = frame.map_or_else(
-        || "not kept".into(),
-        |path| path.unwrap_or_else(|| "kept at the cell".into()),
-    );
+    let frame = match (&detail.frame, detail.frame_loss) {
+        (Some(frame), _) => from
+            .path(frame)
+            .unwrap_or_else(|| "kept at the cell".into()),
+        (None, Some(why)) => format!("not kept: {why}"),
+        (None, None) => "not kept".into(),
+    };
     row("frame", frame);
     for shot in shot_paths(from, record) {
         row("shot", shot);

@@ -20,7 +20,7 @@ Examples:
   partsight library path front_door
   partsight library path front_door --remove
 
-The path is a table in the part's own frame: that of its reference cloud, which was the camera's when the part was
+The path is a table in the part's own frame: that of its reference cloud, which was the camera's when the part was \
 enrolled (x right, y down, z forward). Its heading names columns and units, in one of two ways:
 
   nozzle_x_mm,nozzle_y_mm,nozzle_z_mm,direction_x,direction_y,direction_z
@@ -29,7 +29,7 @@ enrolled (x right, y down, z forward). Its heading names columns and units, in o
   x_mm,y_mm,z_mm,normal_x,normal_y,normal_z,stand_off_mm
   12.0,-40.5,1291.0,0,0,-1,150                 a point of the surface, its normal towards the nozzle, the distance
 
-Exit code 1 if the path does not aim at the part: it is stored, but programs of it
+Exit code 1 if the path does not aim at the part: it is stored, but programs of it \
 are refused, and `serve` does not send it.")]
 pub(super) struct PathArgs {
     /// Name of the part

@@ -2,7 +2,6 @@
 
 use std::{
     ops::ControlFlow,
-    path::PathBuf,
     sync::{Arc, mpsc::Receiver},
     time::Duration,
 };
@@ -25,7 +24,7 @@ use inspection::{
 };
 use records::{
     history::{HungId, NewEntry, Traceability},
-    orders::Orders,
+    orders::OrdersFile,
     report::{InspectionLine, SCHEMA},
 };
 use serde_json::json;
@@ -51,7 +50,7 @@ pub(super) struct ServeSession<'a> {
     /// Robots that servo, or why they are not answered.
     pub(super) servoing: Result<SingleMoves, SetupError>,
     /// The table of orders that triggers may name.
-    pub(super) orders: Option<PathBuf>,
+    pub(super) orders: Option<OrdersFile>,
     /// What triggers are traced by that name no order, and what the last one is.
     pub(super) trace: Traceability,
     pub(super) traced: Traceability,
@@ -166,26 +165,31 @@ impl Inspector for ServeSession<'_> {
     }
 }
 
-/// The entry of a part for the history, if there is one. Each part on a line is another one.
-fn entry_of(recording: Option<&HistoryRecorder>, part: &Inspected<'_>) -> Option<NewEntry> {
-    recording.map(|recording| recording.entry(part, HungId::new()))
+/// The entry of a part for the history, if there is one.
+fn entry_of(
+    recording: Option<&HistoryRecorder>,
+    part: &Inspected<'_>,
+    hung: HungId,
+    trace: &Traceability,
+) -> Option<NewEntry> {
+    recording.map(|recording| recording.traced_entry(part, hung, trace))
 }
 
 impl ServeSession<'_> {
     /// The recipe with what is expected after a trigger, unless it names parts by their numbers. The table of orders may have
     /// changed since the last one.
-    fn recipe_for(&self, asked: &Asked) -> Result<NamedRecipe, NoFrame> {
+    fn recipe_for(&mut self, asked: &Asked) -> Result<NamedRecipe, NoFrame> {
         let recipe = &self.recipe;
         if asked.expected.iter().any(|one| one.is_given()) {
             return Ok(recipe.clone());
         }
-        let Some(path) = &self.orders else {
+        let Some(orders) = &mut self.orders else {
             let is_plain = !asked.order.is_given();
             return is_plain.then(|| recipe.clone()).ok_or(NoFrame::NoOrders);
         };
         let is_enrolled = |name: &str| self.library.has_part(name);
-        let orders = Orders::read(path)?;
-        let expected = orders.expected(&self.traced, Some(&recipe.rack), is_enrolled)?;
+        let table = orders.table().map_err(NoFrame::Orders)?;
+        let expected = table.expected(&self.traced, Some(&recipe.rack), is_enrolled)?;
         Ok(recipe.expecting(expected))
     }
 
@@ -280,10 +284,17 @@ impl ServeSession<'_> {
         let (scenes, console) = (&mut self.scenes, &*self.console);
         let scene_of = |captured| Arc::new(scene_of(captured, scenes, console));
         let recording = self.recording.as_ref();
-        let entry = |part: &Inspected<'_>| entry_of(recording, part);
-        let (answered, recorded) =
-            answering.answer_on_line(asked, line, &self.traced, next, scene_of, entry);
+        let traced = &self.traced;
+        let entry = |part: &Inspected<'_>, hung| entry_of(recording, part, hung, traced);
+        let (answered, recorded, named) =
+            answering.answer_on_line(asked, line, traced, next, scene_of, entry);
         self.record(recorded);
+        // Most were recorded when they began to count, before the trigger.
+        if let Some(recording) = &self.recording {
+            for hung in named {
+                recording.trace(hung, self.traced.clone());
+            }
+        }
         match answered {
             Ok(answered) => self.last.insert(answered).found.clone(),
             Err(why) => self.without_frame(&why),
@@ -309,7 +320,8 @@ impl ServeSession<'_> {
         let (scenes, console) = (&mut self.scenes, &*self.console);
         let scene_of = |captured| Arc::new(scene_of(captured, scenes, console));
         let recording = self.recording.as_ref();
-        let entry = |part: &Inspected<'_>| entry_of(recording, part);
+        let trace = &self.trace;
+        let entry = |part: &Inspected<'_>, hung| entry_of(recording, part, hung, trace);
         let followed = guarded(|| {
             answering
                 .follow(captured, subject, line, scene_of, entry)

@@ -25,11 +25,11 @@ pub(super) fn run(
     let subjects = args.subjects();
     let num = args.num as usize;
     console.start_progress(num);
-    for place in 0..num {
-        let subject = subjects[place % subjects.len()];
+    for index in 0..num {
+        let subject = subjects[index % subjects.len()];
         let (placement, pose_range) =
-            args.placement[(place / subjects.len()) % args.placement.len()];
-        let seed = args.seed.checked_add(place as u64).ok_or_else(|| {
+            args.placement[(index / subjects.len()) % args.placement.len()];
+        let seed = args.seed.checked_add(index as u64).ok_or_else(|| {
             advised_error(
                 "the seeds go beyond the largest number",
                 "Begin with a smaller one, such as --seed 1",

@@ -524,7 +524,7 @@ fn a_program_that_is_killed_while_it_takes_leaves_one_version_whole() {
         child.wait().expect("ended");
         let load = library.load(&ReferenceParams::default()).expect("listed");
         assert!(load.problems.is_empty(), "kill {kill}: {:?}", load.problems);
-        let record = TakenBundle::of(&library).expect("read").expect("taken");
+        let record = TakenBundle::read(&library).expect("read").expect("taken");
         let differences = record.differences(&library).expect("compared");
         assert_eq!(differences, Vec::<LocalPart>::new(), "kill {kill}");
     }

@@ -240,6 +240,8 @@ fn what_is_read_from_the_database_is_what_the_history_itself_shows() {
     history.set_remark(5, "left ? dent").expect("written");
     let mut again = history_entry(30, StoredVerdict::Accepted, "grille");
     again.record.summary.hung = history.known(2).expect("there").summary.hung;
+    again.record.summary.trace.order = "A 17".into();
+    again.record.summary.trace.serial = "TL-4711".into();
     add(&mut history, &again);
     let whose = cell_of(&mut history, "cell7");
     let mut database = server.open().expect("made");
@@ -267,6 +269,11 @@ fn what_is_read_from_the_database_is_what_the_history_itself_shows() {
         },
         Filter {
             is_simulated: Some(false),
+            ..Filter::default()
+        },
+        Filter {
+            order: Some("A 17".into()),
+            serial: Some("TL-4711".into()),
             ..Filter::default()
         },
     ];

@@ -42,10 +42,10 @@ fn an_overview_over_cells_is_listed_and_exported() {
     fs::write(folder.path().join("password"), PASSWORD).expect("written");
     let mut database = server.open().expect("made");
     let cells = ["cell7", "cell \"8\", b"];
-    for (place, cell) in cells.iter().enumerate() {
-        let mut history = open_history(&folder.path().join(place.to_string()));
-        add_some(&mut history, 0..3 + place as i64);
-        let mut late = history_entry(100 + place as i64, StoredVerdict::Accepted, "grille");
+    for (index, cell) in cells.iter().enumerate() {
+        let mut history = open_history(&folder.path().join(index.to_string()));
+        add_some(&mut history, 0..3 + index as i64);
+        let mut late = history_entry(100 + index as i64, StoredVerdict::Accepted, "grille");
         late.record.summary.scene = SceneTitle::Named("\u{1b}[31mred, \"quoted\"".into());
         add(&mut history, &late);
         let whose = cell_of(&mut history, cell);

@@ -78,12 +78,12 @@ impl Overlay<'_> {
             };
             keys.push((colours.role(Role::Unseen).colour, text));
         }
-        if let Some(place) = self.looked_at
-            && let Some(row) = self.fused.rows.get(place)
+        if let Some(shot) = self.looked_at
+            && let Some(row) = self.fused.rows.get(shot)
         {
             let text = text!(
                 "shots-seen-by-one",
-                shot = place + 1,
+                shot = shot + 1,
                 share = percent(row.only)
             );
             keys.push((colours.role(Role::SeenOnce).colour, text));

@@ -42,8 +42,8 @@ fn press_quickly(harness: &mut WindowHarness, label: &str) {
 }
 
 /// The iteration shown.
-fn place(harness: &WindowHarness) -> usize {
-    own(harness).place.round() as usize
+fn iteration(harness: &WindowHarness) -> usize {
+    own(harness).iteration.round() as usize
 }
 
 #[test]
@@ -85,17 +85,17 @@ fn a_part_from_t4_is_aligned_by_every_method_and_scrubbed() {
     assert!(harness.get_all_by_label("0.00°").count() >= 1);
     assert!(harness.get_all_by_label("0.0 mm").count() >= 1);
 
-    let last = place(&harness);
+    let last = iteration(&harness);
     assert!(last > 3);
     harness.get_by_label("Iteration shown").focus();
     harness.run_steps(2);
     harness.key_press(Key::ArrowLeft);
     harness.run_steps(2);
-    assert_eq!(place(&harness), last - 1);
+    assert_eq!(iteration(&harness), last - 1);
     harness.get_by_label_contains(&format!("iteration {} of {last}", last - 1));
     harness.key_press(Key::Home);
     harness.run_steps(2);
-    assert_eq!(place(&harness), 0);
+    assert_eq!(iteration(&harness), 0);
     // The label names P, which plays wherever the focus is; Space plays on the plot only, and captures elsewhere.
     harness.get_by_label_contains("drag to scrub, P to play");
     // While the plot has the focus, Space plays and does not capture.
@@ -103,14 +103,14 @@ fn a_part_from_t4_is_aligned_by_every_method_and_scrubbed() {
     harness.key_press(Key::Space);
     harness.run_steps(3);
     assert_eq!(own(&harness).playback, Playback::Playing);
-    assert!(place(&harness) > 0);
+    assert!(iteration(&harness) > 0);
     press_quickly(&mut harness, "Pause");
-    let paused = place(&harness);
+    let paused = iteration(&harness);
     harness.run_steps(3);
-    assert_eq!(place(&harness), paused);
+    assert_eq!(iteration(&harness), paused);
     harness.key_press(Key::Period);
     harness.run_steps(2);
-    assert_eq!(place(&harness), paused + 1);
+    assert_eq!(iteration(&harness), paused + 1);
     assert_eq!(harness.state().state().inspector.num_captures, num_captures);
 
     // In a small window, the longest words leave room for the title, which follows the language.
@@ -126,7 +126,7 @@ fn a_drag_on_the_plot_scrubs() {
     let mut harness = open();
     press_quickly(&mut harness, "Run");
     settle(&mut harness);
-    let last = place(&harness);
+    let last = iteration(&harness);
     let plot = harness.get_by_label("Iteration shown").rect();
     let (from, to) = (plot.right_center() - Vec2::new(20.0, 0.0), plot.center());
     harness.drag_at(from);
@@ -135,7 +135,7 @@ fn a_drag_on_the_plot_scrubs() {
     harness.run_steps(2);
     harness.drop_at(to);
     harness.run_steps(2);
-    assert!((last / 5..last * 4 / 5).contains(&place(&harness)));
+    assert!((last / 5..last * 4 / 5).contains(&iteration(&harness)));
 }
 
 #[test]

@@ -224,8 +224,8 @@ fn a_robot_is_told_the_pose_that_the_window_shows_and_the_history_keeps_it() {
     );
     let session = &harness.state().state().session;
     let library = session.library.as_ref().expect("loaded");
-    let place = library.place_of("fender").expect("enrolled");
-    assert_eq!(reply[7], (place + 1).to_string());
+    let index = library.place_of("fender").expect("enrolled");
+    assert_eq!(reply[7], (index + 1).to_string());
     let pose = shown_pose(harness.state()).expect("shown");
     let frame = session.robot.as_ref().expect("calibrated");
     let expected = Convention::Kuka.write(&frame.robot_from_part(&pose));
@@ -420,12 +420,12 @@ fn parts_are_numbered_once_robots_are_answered_and_keep_their_numbers() {
     let fender = PartName::new("fender").expect("a name");
     wait_until(&mut harness, |_| {
         let numbers = stored.numbers();
-        numbers.is_ok_and(|numbers| numbers.of(&fender) == Some(3))
+        numbers.is_ok_and(|numbers| numbers.number_of(&fender) == Some(3))
     });
     // The window shows them, and does not take its own change for that of another program.
     wait_until(&mut harness, |state| {
         let library = state.session.library.as_ref();
-        library.is_some_and(|library| library.numbers.of(&fender) == Some(3))
+        library.is_some_and(|library| library.numbers.number_of(&fender) == Some(3))
     });
     assert!(!says(&harness, "another program has changed it"));
     fs::remove_dir_all(parts.join("back_door")).expect("removed");
@@ -655,7 +655,7 @@ fn ask_while(harness: &mut WindowHarness, wire: &Sender<Step>, at: SocketAddr, p
     } else {
         ["accepted", ""]
     };
-    let reason = reply.len().checked_sub(2).map_or("", |place| &reply[place]);
+    let reason = reply.len().checked_sub(2).map_or("", |index| &reply[index]);
     assert_eq!([&*reply[1], reason], expected, "{reply:?}");
     assert_eq!(reply[6], "fender", "{reply:?}");
 }

@@ -248,7 +248,7 @@ fn a_past_inspection_that_is_opened_again_is_labelled_where_it_was_written() {
     press(&mut harness, "Keep case");
     act(&mut harness, Action::GoTo(WorkspaceKind::History));
     let history = history_of(&harness);
-    let rows = (0..history.num_rows()).filter_map(|place| history.row(place));
+    let rows = (0..history.num_rows()).filter_map(|index| history.row(index));
     let mut labels: Vec<_> = rows.map(|row| (row.number, row.label.clone())).collect();
     labels.sort_by_key(|(number, _)| *number);
     assert_eq!(labels, [(1, Some(Truth::NotEnrolled)), (2, None)]);

@@ -278,7 +278,7 @@ fn a_label_and_a_remark_belong_to_the_part_on_which_they_were_begun() {
     harness.key_press(Key::Enter);
     settle(&mut harness);
     let state = history_of(&harness);
-    let rows = (0..state.num_rows()).filter_map(|place| state.row(place));
+    let rows = (0..state.num_rows()).filter_map(|index| state.row(index));
     let rows: Vec<_> = rows
         .map(|row| (row.number, row.remark.as_str(), row.label.clone()))
         .collect();
@@ -308,7 +308,7 @@ fn a_remark_that_is_being_typed_when_the_window_closes_is_kept() {
     let mut harness = open_with(USUAL, keeping(folder.path()));
     go_to_history(&mut harness);
     let state = history_of(&harness);
-    let rows = (0..state.num_rows()).filter_map(|place| state.row(place));
+    let rows = (0..state.num_rows()).filter_map(|index| state.row(index));
     let remarks: Vec<_> = rows.map(|row| (row.number, row.remark.as_str())).collect();
     assert!(remarks.contains(&(1, "dented")), "{remarks:?}");
 }

@@ -258,7 +258,7 @@ fn misfits(harness: &WindowHarness) -> Vec<Misfit> {
     let texts = texts(harness);
     let mut found = Vec::new();
     let window = harness.ctx.content_rect();
-    for (place, drawn) in texts.iter().enumerate() {
+    for (index, drawn) in texts.iter().enumerate() {
         let Drawn {
             text, rect, clip, ..
         } = drawn;
@@ -292,7 +292,7 @@ fn misfits(harness: &WindowHarness) -> Vec<Misfit> {
             other.clip == *clip
                 && lines.any(|own| other.lines.iter().any(|line| overlaps(own, line)))
         };
-        if let Some(other) = texts[..place].iter().find(runs_into) {
+        if let Some(other) = texts[..index].iter().find(runs_into) {
             found.push(Misfit {
                 what: "runs into another text",
                 text: format!("{text} | {}", other.text),
@@ -352,9 +352,9 @@ const SCENERIES: [Scenery; 17] = [
 /// Brings a view to the front.
 fn arrange(harness: &mut WindowHarness, scenery: Scenery) {
     let go = |harness: &mut WindowHarness, to| act(harness, Action::GoTo(to));
-    let menu = |harness: &mut WindowHarness, place: usize| {
+    let menu = |harness: &mut WindowHarness, index: usize| {
         let menus = harness.query_all_by_label_contains("▼");
-        menus.into_iter().nth(place).expect("a menu").click();
+        menus.into_iter().nth(index).expect("a menu").click();
         harness.run_steps(8);
     };
     match scenery {

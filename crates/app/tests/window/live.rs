@@ -410,7 +410,7 @@ fn a_part_without_a_verdict_that_counts_is_recorded_when_the_window_closes() {
     };
     let harness = open_with(USUAL, options);
     let history = history_of(&harness);
-    let rows = (0..history.num_rows()).filter_map(|place| history.row(place));
+    let rows = (0..history.num_rows()).filter_map(|index| history.row(index));
     let fenders: Vec<_> = rows
         .filter(|row| row.part.as_deref() == Some("fender"))
         .map(|row| row.trace.serial.as_str())

@@ -512,10 +512,10 @@ pub(crate) fn pass_time(harness: &mut WindowHarness) {
 }
 
 /// Waits until the row at this index of the history has this serial number.
-pub(crate) fn wait_for_serial(harness: &mut WindowHarness, place: usize, serial: &str) {
+pub(crate) fn wait_for_serial(harness: &mut WindowHarness, index: usize, serial: &str) {
     wait_for(harness, |window| {
         let history = window.workspace::<HistoryWorkspace>().expect("there");
-        let row = history.state.row(place);
+        let row = history.state.row(index);
         row.is_some_and(|row| row.trace.serial == serial)
     });
 }
@@ -846,9 +846,9 @@ fn a_scanned_serial_number_goes_with_one_part_and_order_and_operator_with_the_ne
     wait_for_serial(&mut harness, 1, "TL471");
     settle(&mut harness);
     let traces: Vec<_> = (0..2)
-        .map(|place| {
+        .map(|index| {
             history_of(&harness)
-                .row(place)
+                .row(index)
                 .expect("listed")
                 .trace
                 .clone()

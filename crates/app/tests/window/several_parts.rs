@@ -77,14 +77,14 @@ fn hung(harness: &WindowHarness) -> Vec<HungId> {
 /// Titles of the newest rows of the history, the newest first.
 fn newest_rows(harness: &WindowHarness, num: usize) -> Vec<String> {
     let history = history_of(harness);
-    let rows = (0..num).filter_map(|place| history.row(place));
+    let rows = (0..num).filter_map(|index| history.row(index));
     rows.map(|row| row.title.clone()).collect()
 }
 
 /// The row of the radiator support, or of what resembles it.
 fn past(harness: &WindowHarness, verdict: StoredVerdict) -> Summary {
     let history = history_of(harness);
-    let mut rows = (0..history.num_rows()).filter_map(|place| history.row(place));
+    let mut rows = (0..history.num_rows()).filter_map(|index| history.row(index));
     let row = rows.find(|row| row.title == "Radiator support" && row.verdict == verdict);
     row.expect("recorded").clone()
 }

@@ -57,9 +57,9 @@ impl ScanFolder {
         });
         fs::create_dir_all(made.scan()).expect("made");
         let mut poses = serde_json::Map::new();
-        for (place, shot) in scan.shots().iter().enumerate() {
+        for (index, shot) in scan.shots().iter().enumerate() {
             let frame = coarse(&shot.frame);
-            if place == num {
+            if index == num {
                 let path = made.path("spare/shot-9.png");
                 fs::create_dir_all(made.path("spare")).expect("made");
                 write_depth_png(&path, &frame).expect("written");
@@ -67,7 +67,7 @@ impl ScanFolder {
                 fs::write(made.path("spare/poses.json"), poses.to_string()).expect("written");
                 continue;
             }
-            let name = format!("shot-{}.png", place + 1);
+            let name = format!("shot-{}.png", index + 1);
             write_depth_png(&made.scan().join(&name), &frame).expect("written");
             poses.insert(name, entry(&shot.given));
         }
@@ -156,7 +156,7 @@ fn fused(harness: &WindowHarness) -> &FusedShots {
 fn used(harness: &WindowHarness) -> Vec<usize> {
     let rows = fused(harness).rows.iter().enumerate();
     rows.filter(|(_, row)| matches!(row.fate, ShotFate::Used { .. }))
-        .map(|(place, _)| place)
+        .map(|(index, _)| index)
         .collect()
 }
 

@@ -118,7 +118,7 @@ pub(super) fn run(args: &RecognitionArgs, console: &mut Console) -> anyhow::Resu
         let scene = &frame.scene;
         for (case, inspection) in &frame.cases {
             if let Some((pictures, inspection)) = pictures.as_mut().zip(inspection.as_ref()) {
-                pictures.keep(suite, case, scene, inspection, libraries.of(suite));
+                pictures.keep(suite, case, scene, inspection, libraries.for_suite(suite));
             }
             if let Some(systems) = systems.as_ref().filter(|_| suite.is_for_all_systems()) {
                 shown.extend(systems.recognise(suite, case, scene, &recipe));
@@ -247,7 +247,7 @@ impl Frames {
         console.start_progress(self.suites.iter().map(|(_, frames)| frames.len()).sum());
         let mut results: Vec<SuiteResult> = Vec::new();
         for (suite, frames) in &self.suites {
-            let library = libraries.of(*suite);
+            let library = libraries.for_suite(*suite);
             let done = |frame: &InspectedFrame| {
                 after_each(*suite, frame);
                 console.done();
@@ -273,7 +273,7 @@ impl Frames {
         console.start_progress(racks.iter().map(|(_, frames)| frames.len()).sum());
         let mut figures = ExpectationFigures::none();
         for (suite, frames) in racks {
-            let library = libraries.of(*suite);
+            let library = libraries.for_suite(*suite);
             add_expected_racks(*suite, frames, library, recipe, &mut figures, || {
                 console.done();
             });

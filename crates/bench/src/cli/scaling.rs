@@ -111,7 +111,7 @@ fn picture(scaling: &Scaling) -> image::RgbImage {
         .workers
         .iter()
         .enumerate()
-        .map(|(place, workers)| SizeCurve {
+        .map(|(index, workers)| SizeCurve {
             name: match workers {
                 1 => "1 worker".into(),
                 workers => format!("{workers} workers"),
@@ -119,7 +119,7 @@ fn picture(scaling: &Scaling) -> image::RgbImage {
             points: scaling
                 .rows
                 .iter()
-                .map(|row| [row.num_references as f64, row.least_ms[place]])
+                .map(|row| [row.num_references as f64, row.least_ms[index]])
                 .collect(),
         })
         .collect();

@@ -158,22 +158,22 @@ impl SystemsTable {
 fn system_lines(systems: &Systems<'_>, cases: &[SystemsCase]) -> Vec<SystemLine> {
     let mut suites: Vec<Suite> = cases.iter().map(|case| case.suite).collect();
     suites.dedup();
-    let line = |(place, (system, prepared)): (usize, (System, Preparation))| {
-        let answers = || cases.iter().filter_map(move |c| c.answers.get(place));
+    let line = |(index, (system, prepared)): (usize, (System, Preparation))| {
+        let answers = || cases.iter().filter_map(move |c| c.answers.get(index));
         let ms = || answers().map(|a| a.time.as_secs_f64() * 1e3);
         let sizes = || answers().filter_map(|a| a.size);
         let in_suite = |suite: &Suite| {
             let frames = || cases.iter().filter(|case| case.suite == *suite);
             SuiteShare {
                 suite: *suite,
-                num_right: frames().filter(|case| case.is_right(place)).count(),
+                num_right: frames().filter(|case| case.is_right(index)).count(),
                 num_frames: frames().count(),
             }
         };
         SystemLine {
             system,
             source: system.source(),
-            num_right: cases.iter().filter(|case| case.is_right(place)).count(),
+            num_right: cases.iter().filter(|case| case.is_right(index)).count(),
             by_suite: suites.iter().map(in_suite).collect(),
             median_ms: quantile(ms(), 0.5),
             p95_ms: quantile(ms(), 0.95),

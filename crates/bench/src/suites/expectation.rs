@@ -81,8 +81,8 @@ pub fn add_expected_racks(
     figures: &mut [ExpectationFigures; 4],
     mut after_each: impl FnMut(),
 ) {
-    for (place, frame) in frames.iter().enumerate() {
-        figures[place % Expectation::ALL.len()].add(suite, frame, library, recipe);
+    for (index, frame) in frames.iter().enumerate() {
+        figures[index % Expectation::ALL.len()].add(suite, frame, library, recipe);
         after_each();
     }
 }
@@ -104,8 +104,8 @@ impl ExpectationFigures {
         match self.expectation {
             Expectation::Right => {}
             Expectation::Wrong => {
-                let place = random.random_range(0..names.len());
-                replaced = Some(std::mem::replace(&mut names[place], absent.clone()));
+                let index = random.random_range(0..names.len());
+                replaced = Some(std::mem::replace(&mut names[index], absent.clone()));
             }
             Expectation::Missing => names.push(absent.clone()),
             Expectation::One => {
@@ -166,7 +166,7 @@ mod tests {
         let suite = Suite::RackApart;
         let frames = suite.frames(4, TUNING_SEED);
         let mut figures = ExpectationFigures::none();
-        let (library, recipe) = (libraries.of(suite), Recipe::default());
+        let (library, recipe) = (libraries.for_suite(suite), Recipe::default());
         let mut num = 0;
         add_expected_racks(suite, &frames, library, &recipe, &mut figures, || num += 1);
         assert_eq!(num, 4);

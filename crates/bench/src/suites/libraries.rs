@@ -26,7 +26,7 @@ impl SuiteLibraries {
     }
 
     /// Returns the library that a suite is inspected against.
-    pub fn of(&self, suite: Suite) -> &Library {
+    pub fn for_suite(&self, suite: Suite) -> &Library {
         match suite {
             Suite::BothSides => &self.both_sides,
             _ => &self.left,

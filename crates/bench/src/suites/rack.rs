@@ -169,7 +169,7 @@ mod tests {
         let libraries = libraries();
         for suite in [Suite::RackEqual, Suite::RackMirrored, Suite::RackOnBar] {
             let frames = suite.frames(2, TUNING_SEED);
-            let library = libraries.of(suite);
+            let library = libraries.for_suite(suite);
             let result = run_suite(suite, &frames, library, &Recipe::default(), |frame| {
                 for (case, inspection) in &frame.cases {
                     assert_eq!(case.timings.is_some(), inspection.is_some());
@@ -199,7 +199,7 @@ mod tests {
         let libraries = libraries();
         for (suite, index) in [(Suite::RackForeign, 1), (Suite::RackOnBar, 0)] {
             let frames = suite.frames(2, MEASURING_SEED);
-            let library = libraries.of(suite);
+            let library = libraries.for_suite(suite);
             let recipe = Recipe::default();
             let result = run_suite(suite, &frames[index..=index], library, &recipe, |_| {});
             let stools = result.cases.iter().filter(|case| case.subject == "stool");
@@ -217,7 +217,7 @@ mod tests {
         recipe.segment.max_parts = 2;
         let scene = scene_from_frame(&shot.frame);
         let libraries = libraries();
-        let found = run_all(&scene, libraries.of(suite), &recipe, &Unwatched);
+        let found = run_all(&scene, libraries.for_suite(suite), &recipe, &Unwatched);
         let found = found.expect("not cancelled");
         let result = |shot: &SuiteShot, found: &[Inspection]| {
             let cases = rack_cases(shot, found.to_vec());

@@ -145,23 +145,16 @@ pub struct Preparation {
 }
 
 /// Why the systems could not be prepared.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error, geometry::error::Advice)]
 pub enum SystemsError {
     /// A reference cannot be described.
     #[error(transparent)]
+    #[advice(transparent)]
     Surface(#[from] SurfaceError),
     /// A reference cannot be prepared.
     #[error(transparent)]
+    #[advice(transparent)]
     Reference(#[from] ReferenceError),
-}
-
-impl geometry::error::Advice for SystemsError {
-    fn advice(&self) -> String {
-        match self {
-            Self::Surface(error) => error.advice(),
-            Self::Reference(error) => error.advice(),
-        }
-    }
 }
 
 /// All systems, prepared with the references of one library.
@@ -218,10 +211,10 @@ mod tests {
     fn every_system_tells_the_parts_apart_when_they_face_the_camera() {
         let libraries = SuiteLibraries::enrol(&EnrolParams::default()).expect("eight parts");
         let (suite, recipe) = (Suite::Standard, Recipe::default());
-        let systems = Systems::prepare(libraries.of(suite)).expect("can be described");
+        let systems = Systems::prepare(libraries.for_suite(suite)).expect("can be described");
         let frames = suite.frames(1, TUNING_SEED);
         let mut cases = Vec::new();
-        let library = libraries.of(suite);
+        let library = libraries.for_suite(suite);
         run_suite(suite, &frames, library, &recipe, |frame| {
             let (case, _) = &frame.cases[0];
             cases.extend(systems.recognise(suite, case, &frame.scene, &recipe));
@@ -229,14 +222,14 @@ mod tests {
         assert_eq!(cases.len(), 8);
         let preparations = systems.preparations();
         assert_eq!(preparations.len(), System::ALL.len());
-        for (place, system) in System::ALL.iter().enumerate() {
-            let num_right = cases.iter().filter(|case| case.is_right(place)).count();
+        for (index, system) in System::ALL.iter().enumerate() {
+            let num_right = cases.iter().filter(|case| case.is_right(index)).count();
             // The paper's matcher is right on about two of three frames.
             let least = if *system == System::Paper { 3 } else { 7 };
             assert!(num_right >= least, "{system:?}: {num_right} of 8");
-            let is_descriptor = preparations[place].num_rows.is_some();
+            let is_descriptor = preparations[index].num_rows.is_some();
             for case in &cases {
-                assert_eq!(case.answers[place].size.is_some(), is_descriptor);
+                assert_eq!(case.answers[index].size.is_some(), is_descriptor);
             }
         }
     }

@@ -23,8 +23,8 @@ use files::{FileError, open_regular};
 const BAG_MARK: &[u8] = b"#ROSBAG V2.0\n";
 const DB3_MARK: &[u8] = b"SQLite format 3\0";
 /// Offsets in the header of a `SQLite` database: page size, 2 bytes, and number of pages, 4 bytes.
-const DB3_PAGE_SIZE: usize = 16;
-const DB3_NUM_PAGES: usize = 28;
+const DB3_PAGE_SIZE_OFFSET_BYTES: usize = 16;
+const DB3_NUM_PAGES_OFFSET_BYTES: usize = 28;
 /// Number of bytes read first: the magic, and the header of the database or of the first record.
 const HEAD_BYTES: usize = 100;
 
@@ -74,8 +74,8 @@ fn fault_of(path: &Path) -> io::Result<Option<&'static str>> {
 
 /// Size of a database according to its header, bytes.
 fn db3_size(head: &[u8]) -> Option<u64> {
-    let size = head.get(DB3_PAGE_SIZE..)?.first_chunk()?;
-    let num = head.get(DB3_NUM_PAGES..)?.first_chunk()?;
+    let size = head.get(DB3_PAGE_SIZE_OFFSET_BYTES..)?.first_chunk()?;
+    let num = head.get(DB3_NUM_PAGES_OFFSET_BYTES..)?.first_chunk()?;
     // 65536 does not fit into the field and is stored as 1.
     let size = match u16::from_be_bytes(*size) {
         1 => 65_536,
@@ -183,8 +183,10 @@ mod tests {
     fn db3() -> Vec<u8> {
         let mut bytes = DB3_MARK.to_vec();
         bytes.resize(3 * 512, 7);
-        bytes[DB3_PAGE_SIZE..DB3_PAGE_SIZE + 2].copy_from_slice(&512_u16.to_be_bytes());
-        bytes[DB3_NUM_PAGES..DB3_NUM_PAGES + 4].copy_from_slice(&3_u32.to_be_bytes());
+        bytes[DB3_PAGE_SIZE_OFFSET_BYTES..DB3_PAGE_SIZE_OFFSET_BYTES + 2]
+            .copy_from_slice(&512_u16.to_be_bytes());
+        bytes[DB3_NUM_PAGES_OFFSET_BYTES..DB3_NUM_PAGES_OFFSET_BYTES + 4]
+            .copy_from_slice(&3_u32.to_be_bytes());
         bytes
     }
 
@@ -207,7 +209,7 @@ mod tests {
 
     #[test]
     fn an_index_of_any_content_is_read_at_most_once() {
-        const SIZE: usize = 1 << 20;
+        const CHUNK_BYTES: usize = 1 << 20;
         let first = |num_chunks: u32| {
             let header = [
                 field("chunk_count", &num_chunks.to_le_bytes()),
@@ -218,20 +220,25 @@ mod tests {
             [BAG_MARK, &record(&header.concat(), b"")].concat()
         };
         let smallest = record(&field("op", &[6]), b"");
-        let num_smallest = (SIZE - 100) / smallest.len();
+        let num_smallest = (CHUNK_BYTES - 100) / smallest.len();
         // Zeros, as in a sparse file; the smallest records; larger ones; and counts that do not fit.
         for (content, num_chunks, is_whole, max_read) in [
             (vec![0], 1 << 16, false, 16_384),
             (vec![0], u32::MAX, false, 0),
-            (smallest.clone(), num_smallest as u32, true, SIZE),
+            (smallest.clone(), num_smallest as u32, true, CHUNK_BYTES),
             (smallest, u32::MAX, false, 0),
-            (record(&field("op", &[6]), &[1; 9000]), 100, false, SIZE),
+            (
+                record(&field("op", &[6]), &[1; 9000]),
+                100,
+                false,
+                CHUNK_BYTES,
+            ),
         ] {
             let mut bytes = first(num_chunks);
             bytes.resize(100, 0);
-            let index = content.iter().cycle().take(SIZE - 100);
+            let index = content.iter().cycle().take(CHUNK_BYTES - 100);
             bytes.extend(index);
-            bytes.truncate(100 + (SIZE - 100) / content.len() * content.len());
+            bytes.truncate(100 + (CHUNK_BYTES - 100) / content.len() * content.len());
             let num_read = std::cell::Cell::new(0);
             let file = Counted(io::Cursor::new(&bytes), &num_read);
             let ends = bag_ends_with_its_index(

@@ -100,7 +100,7 @@ impl Recorder {
     /// Writes a capture. On an error its frame is removed, and the frames before it are kept.
     pub fn write(&mut self, captured: &Captured) -> Result<(), CaptureError> {
         let (ending, camera) = match &captured.image {
-            Image::Depth(frame) => ("png", Some(DepthCamera::of(frame))),
+            Image::Depth(frame) => ("png", Some(DepthCamera::from_frame(frame))),
             Image::Cloud(_) => ("pcd", None),
         };
         let file = format!("frame-{:06}.{ending}", self.num_frames + 1);

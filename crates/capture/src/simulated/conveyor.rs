@@ -5,9 +5,9 @@ use nalgebra::{Point3, Rotation3, Translation3, Vector3};
 use geometry::rigid::RigidTransform;
 
 /// Time in which a part comes in, seconds.
-const ARRIVAL_S: f64 = 1.2;
+const ARRIVAL_TIME_S: f64 = 1.2;
 /// Time in which a part leaves, seconds.
-const DEPARTURE_S: f64 = 0.8;
+const DEPARTURE_TIME_S: f64 = 0.8;
 /// Distance from which parts come in, metres: outside the picture, even for the longest part at the farthest position.
 pub(super) const PART_START_DISTANCE_M: f64 = 2.5;
 /// Distance from which racks come in, metres: outside the picture, even for the widest one.
@@ -50,11 +50,11 @@ impl ConveyorState {
         rest_pose: &RigidTransform,
         start_distance_m: f64,
     ) -> RigidTransform {
-        let coming = (1.0 - self.since / ARRIVAL_S).max(0.0);
-        let leaving = (1.0 - self.left / DEPARTURE_S).max(0.0);
+        let coming = (1.0 - self.since / ARRIVAL_TIME_S).max(0.0);
+        let leaving = (1.0 - self.left / DEPARTURE_TIME_S).max(0.0);
         // Decelerates when coming, accelerates when leaving; the line runs to the left.
         let aside = start_distance_m * (coming.powi(3) - leaving.powi(3));
-        let settling = (self.since - ARRIVAL_S).max(0.0);
+        let settling = (self.since - ARRIVAL_TIME_S).max(0.0);
         let angle = SWING_AMPLITUDE_RAD
             * (-settling / SWING_DECAY_S).exp()
             * (std::f64::consts::TAU * SWING_FREQUENCY_HZ * settling).sin();

@@ -163,25 +163,32 @@ fn recorded_file<'a>(device: Option<&'a str>, endings: &[&str]) -> Option<&'a Pa
 }
 
 /// A text is not a valid source specification.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, Advice)]
 pub enum SpecError {
     /// The kind of source is unknown.
     #[error(
         "{text:?} is not a source; expected one that begins with simulated, recording, watch, kinect, genicam, openni \
          or realsense"
     )]
+    #[advice(if Path::new(text).is_dir() {
+        format!("Say what to do with the folder: recording:{text} to replay it, watch:{text} to wait for new files")
+    } else {
+        "List the sources: partsight capture --list".into()
+    })]
     UnknownKind {
         /// The whole text.
         text: String,
     },
     /// The folder is missing.
     #[error("{text:?} names no folder")]
+    #[advice("Put the folder after a colon, for example {}:captures", text.trim_end_matches(':'))]
     NoFolder {
         /// The whole text.
         text: String,
     },
     /// This kind of source has no such option.
     #[error("{kind} has no option {found:?}, expected {expected}")]
+    #[advice(SEE_EXAMPLES)]
     UnknownOption {
         /// The kind of source.
         kind: &'static str,
@@ -192,6 +199,7 @@ pub enum SpecError {
     },
     /// An option, or the part after the colon, has a wrong value.
     #[error("{what} {found:?}: expected {expected}")]
+    #[advice(SEE_EXAMPLES)]
     BadValue {
         /// Name of the option.
         what: &'static str,
@@ -202,23 +210,7 @@ pub enum SpecError {
     },
 }
 
-impl Advice for SpecError {
-    fn advice(&self) -> String {
-        match self {
-            Self::UnknownKind { text } if Path::new(text).is_dir() => format!(
-                "Say what to do with the folder: recording:{text} to replay it, watch:{text} to wait for new files"
-            ),
-            Self::UnknownKind { .. } => "List the sources: partsight capture --list".into(),
-            Self::NoFolder { text } => format!(
-                "Put the folder after a colon, for example {}:captures",
-                text.trim_end_matches(':')
-            ),
-            Self::UnknownOption { .. } | Self::BadValue { .. } => {
-                "See partsight capture --help for examples".into()
-            }
-        }
-    }
-}
+const SEE_EXAMPLES: &str = "See partsight capture --help for examples";
 
 const SIMULATED: &str = "simulated";
 const RECORDING: &str = "recording";

@@ -76,7 +76,7 @@ pub const NUM_ON_RACK: usize = 3;
 /// Default time from one part or rack of the line to the next, seconds.
 const DEFAULT_INTERVAL_S: f64 = 8.0;
 /// Default speed of the line that runs without a stop, m/s.
-const DEFAULT_SPEED: f64 = 0.1;
+const DEFAULT_SPEED_M_S: f64 = 0.1;
 /// Frame rate of a Kinect.
 const DEFAULT_FPS: f64 = 30.0;
 
@@ -165,7 +165,7 @@ impl CellScene {
 
     fn read(what: Option<&str>, every: Option<f64>, speed: Option<f64>) -> Option<Self> {
         let every = every.unwrap_or(DEFAULT_INTERVAL_S);
-        let speed = speed.unwrap_or(DEFAULT_SPEED);
+        let speed = speed.unwrap_or(DEFAULT_SPEED_M_S);
         Some(match what {
             None | Some(LINE) => Self::Line { every },
             Some(RACK) => Self::Rack { every },
@@ -289,7 +289,7 @@ impl SimulatedSpec {
             CellScene::Line { every } | CellScene::Rack { every } if !is_default(every) => {
                 write!(f, ",every={every}:{}", self.scene.name())
             }
-            CellScene::Conveyor { speed } if speed.to_bits() != DEFAULT_SPEED.to_bits() => {
+            CellScene::Conveyor { speed } if speed.to_bits() != DEFAULT_SPEED_M_S.to_bits() => {
                 write!(f, ",speed={}:{CONVEYOR}", 1000.0 * speed)
             }
             scene => write!(f, ":{}", scene.name()),

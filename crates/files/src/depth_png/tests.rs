@@ -84,13 +84,13 @@ fn the_images_of_a_folder_may_share_a_camera() {
     let shared = folder.path().join(FOLDER_CAMERA);
     std::fs::rename(intrinsics_path(&path), &shared).unwrap();
     assert_eq!(open(&path).unwrap(), FileContent::Depth(frame()));
-    let mut other = DepthCamera::of(&frame());
+    let mut other = DepthCamera::from_frame(&frame());
     other.intrinsics.fx = 600.0;
     write_camera(&intrinsics_path(&path), &other).unwrap();
     let FileContent::Depth(own) = open(&path).unwrap() else {
         panic!("a depth image");
     };
-    assert_eq!(DepthCamera::of(&own), other);
+    assert_eq!(DepthCamera::from_frame(&own), other);
 }
 
 #[test]

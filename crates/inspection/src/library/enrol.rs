@@ -136,7 +136,7 @@ pub fn enrol_surface(
     params: &EnrolParams,
 ) -> Result<Enrolled, EnrolError> {
     let all = surfaces_to_enrol(scene, params)?;
-    let chosen = number.checked_sub(1).and_then(|place| all.get(place));
+    let chosen = number.checked_sub(1).and_then(|index| all.get(index));
     let chosen = chosen.ok_or(EnrolError::NoSuchSurface {
         wanted: number,
         found: all.len(),

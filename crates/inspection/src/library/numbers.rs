@@ -51,7 +51,7 @@ pub struct GivenNumbers {
 
 impl PartNumbers {
     /// Returns the number of a part, from 1; `None` if it has none.
-    pub fn of(&self, part: &PartName) -> Option<u32> {
+    pub fn number_of(&self, part: &PartName) -> Option<u32> {
         self.parts.get(part).copied()
     }
 
@@ -75,7 +75,9 @@ impl PartNumbers {
             let known_as = names.find(|(_, known)| *known == number);
             let known_as = known_as.map_or(part, |(name, _)| name);
             // In the version before, the name may have been another part's.
-            let is_it = before.of(known_as).is_none_or(|known| known == *number);
+            let is_it = before
+                .number_of(known_as)
+                .is_none_or(|known| known == *number);
             if let Some(kept) = former.get(known_as).filter(|_| is_it) {
                 self.insert_free(part, *kept);
             }
@@ -241,7 +243,7 @@ mod tests {
     }
 
     fn number_of(library: &LibraryFolder, part: &str) -> Option<u32> {
-        library.numbers().expect("read").of(&name(part))
+        library.numbers().expect("read").number_of(&name(part))
     }
 
     fn rename(library: &LibraryFolder, from: &str, to: &str) {
@@ -278,14 +280,14 @@ mod tests {
         copy_by_hand(&library, "fender", "zz_new_one");
         let second = library.give_numbers().expect("given");
         for (part, number) in first.all() {
-            assert_eq!(second.of(part), Some(number), "{part}");
+            assert_eq!(second.number_of(part), Some(number), "{part}");
         }
         assert_eq!(number_of(&library, "a_new_one"), Some(9));
         assert_eq!(number_of(&library, "zz_new_one"), Some(10));
         library.restore(&gone).expect("restored");
         let third = library.give_numbers().expect("given");
         assert_eq!(third, second);
-        assert_eq!(third.of(&name("trunk_lid")), Some(8));
+        assert_eq!(third.number_of(&name("trunk_lid")), Some(8));
     }
 
     #[test]
@@ -362,8 +364,8 @@ mod tests {
         }
         fs::write(&path, "[parts]\nhood = 10\nfender = 30\n").expect("written");
         let numbers = library.give_numbers().expect("given");
-        assert_eq!(numbers.of(&name("fender")), Some(30));
-        assert_eq!(numbers.of(&name("back_bumper")), Some(31));
+        assert_eq!(numbers.number_of(&name("fender")), Some(30));
+        assert_eq!(numbers.number_of(&name("back_bumper")), Some(31));
         let text = fs::read_to_string(&path).expect("read");
         assert!(
             text.starts_with("# The numbers") && text.contains("hood = 10\n"),
@@ -376,7 +378,7 @@ mod tests {
         let text = "retired = [2]\n[parts]\ndoor = 1\nfender = 16777214\ngone = 3\n";
         let mut numbers = PartNumbers::parse(text).expect("sound");
         numbers.number_rest(["door", "grille", "hood", "wheel"].map(name).into_iter());
-        let given = ["door", "grille", "hood", "wheel"].map(|part| numbers.of(&name(part)));
+        let given = ["door", "grille", "hood", "wheel"].map(|part| numbers.number_of(&name(part)));
         assert_eq!(given, [Some(1), Some(MAX_NUMBER), Some(4), Some(5)]);
     }
 
@@ -390,13 +392,13 @@ mod tests {
 
         let mut here = parse("[parts]\nfender = 1\ngrille = 7\n");
         here.add_published(&published, &PartNumbers::default());
-        let of = |part: &str| here.of(&name(part));
+        let of = |part: &str| here.number_of(&name(part));
         assert_eq!(
             [of("fender"), of("grille"), of("door")],
             [Some(1), Some(7), None]
         );
         here.number_rest([name("door")].into_iter());
-        assert_eq!(here.of(&name("door")), Some(10), "9 is retired");
+        assert_eq!(here.number_of(&name("door")), Some(10), "9 is retired");
     }
 
     #[test]
@@ -410,6 +412,6 @@ mod tests {
         let expected = parse("[parts]\ndoor = 3\ngrille = 1\nmine = 4\nwing = 7\n");
         assert_eq!(here, expected);
         here.number_rest([name("fender")].into_iter());
-        assert_eq!(here.of(&name("fender")), Some(8));
+        assert_eq!(here.number_of(&name("fender")), Some(8));
     }
 }

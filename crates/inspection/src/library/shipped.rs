@@ -113,7 +113,7 @@ mod tests {
         let numbers = shipped_numbers();
         for part in SHIPPED {
             let name = part.name.parse().expect("a name");
-            assert!(numbers.of(&name).is_some(), "{}", part.name);
+            assert!(numbers.number_of(&name).is_some(), "{}", part.name);
         }
         assert_eq!(numbers.all().count(), SHIPPED.len());
     }

@@ -57,8 +57,10 @@ const COINCIDE_MAX_HEIGHT_M: f64 = 0.004;
 const NUM_COMPARED: usize = 2000;
 
 /// Similarity of one enrolled part to another.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error, Advice)]
 #[error("{name} cannot be told from {other} ({:.0} % alike)", score * 100.0)]
+#[advice = "If both are the same part, enrol with --as {other} to store one more reference of it, or with --name {other} to replace it; \
+           else remove one of them, `partsight library remove {name}` or `partsight library remove {other}`"]
 pub struct Similarity {
     /// Name of the reference's entry, which may differ from the part's name.
     pub name: String,
@@ -68,16 +70,6 @@ pub struct Similarity {
     pub score: f64,
     /// True if its mirror image is more similar to the other than the part itself.
     pub is_mirrored: bool,
-}
-
-impl Advice for Similarity {
-    fn advice(&self) -> String {
-        let Self { name, other, .. } = self;
-        format!(
-            "If both are the same part, enrol with --as {other} to store one more reference of it, or with --name {other} to replace it; \
-             else remove one of them, `partsight library remove {name}` or `partsight library remove {other}`"
-        )
-    }
 }
 
 impl Similarity {
@@ -300,14 +292,14 @@ fn confirmed(scene: &Scene<'_>, others: &[Reference], ranking: &MatchRanking) ->
 /// Returns the scores of the outlines, and of those examined whose clouds are laid onto each other, the share that coincides.
 fn laid_on(reference: &Reference, others: &[Reference], ranking: &MatchRanking) -> Vec<PairScore> {
     let entries = ranking.entries.as_slice();
-    let found = map_each(entries.len(), num_cores(), |place| {
-        let outline = entries[place].score;
-        let other = &others[entries[place].reference];
+    let found = map_each(entries.len(), num_cores(), |index| {
+        let outline = entries[index].score;
+        let other = &others[entries[index].reference];
         let is_whole = other.cut.is_nothing();
         // Laying clouds onto each other takes some 0.1 s, so only where it decides.
         let score = if is_whole && outline >= MIN_INDISTINGUISHABLE_SCORE {
             outline.min(coincidence(reference, other))
-        } else if !is_whole && place < NUM_EXAMINED {
+        } else if !is_whole && index < NUM_EXAMINED {
             coincidence(reference, other)
         } else {
             outline

@@ -194,9 +194,9 @@ fn is_own_mirror_image(reference: &Reference) -> bool {
 /// if it ranked too low to be aligned, or was not compared at all.
 fn put_first(inspection: &mut Inspection, named: &ConfirmedMatch, recipe: &Recipe) {
     let entries = &mut inspection.ranking.entries;
-    let mut places = entries.iter();
-    let place = places.position(|entry| entry.part == named.part);
-    if place.is_none() {
+    let mut sorted = entries.iter();
+    let index = sorted.position(|entry| entry.part == named.part);
+    if index.is_none() {
         entries.push(ConfirmedMatch {
             score: 0.0,
             rival: 0.0,
@@ -207,9 +207,9 @@ fn put_first(inspection: &mut Inspection, named: &ConfirmedMatch, recipe: &Recip
             ..named.clone()
         });
     }
-    let place = place.unwrap_or(entries.len() - 1);
-    if place > 0 {
-        entries[..=place].rotate_right(1);
+    let index = index.unwrap_or(entries.len() - 1);
+    if index > 0 {
+        entries[..=index].rotate_right(1);
         inspection.pose = entries[0].pose.clone().map(Ok);
         inspection.verdict = verdict(&inspection.ranking, inspection.pose.as_ref(), recipe);
     }
@@ -294,24 +294,21 @@ pub struct MirrorTally {
 }
 
 /// Everything that was recognised fits only as its mirror image.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, Advice)]
 #[error(
     "everything that was recognised ({num_captures} captures: {}) fits only as its mirror image: left and right may \
      be swapped in the images",
     parts.join(", ")
+)]
+#[advice(
+    "If these are the enrolled parts and not those of the other side: {}",
+    Message::new("put-right").text(Language::English)
 )]
 pub struct OnlyMirrored {
     /// Captures that show mirror images.
     pub num_captures: usize,
     /// The parts whose mirror images they show.
     pub parts: Vec<String>,
-}
-
-impl Advice for OnlyMirrored {
-    fn advice(&self) -> String {
-        let put_right = Message::new("put-right").text(Language::English);
-        format!("If these are the enrolled parts and not those of the other side: {put_right}")
-    }
 }
 
 impl MirrorTally {

@@ -280,7 +280,8 @@ pub struct Parameter<R: Parameters = Recipe> {
 }
 
 /// A value that a parameter cannot have.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error, Advice)]
+#[advice = "The previous value stays"]
 pub enum BadValue {
     /// Outside the valid range.
     #[error("{name} cannot be {found}: it ranges from {range}")]
@@ -306,12 +307,6 @@ impl BadValue {
         let (Self::OutOfRange { name, .. } | Self::NoSuchOption { name }) = &mut self;
         *name = format!("{key} ({name})");
         self
-    }
-}
-
-impl Advice for BadValue {
-    fn advice(&self) -> String {
-        "The previous value stays".into()
     }
 }
 
@@ -467,7 +462,8 @@ impl<R: Parameters> Setting<R> {
 }
 
 /// Why a text is not a [`Setting`].
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error, Advice)]
+#[advice = "Write NAME=VALUE; docs/guide/parameters.md and docs/guide/paint.md list names, units and ranges"]
 pub enum SettingError {
     /// The text has no equals sign.
     #[error("there is no = between name and value")]
@@ -513,12 +509,6 @@ pub enum SettingError {
     BadValue(#[from] BadValue),
 }
 
-impl Advice for SettingError {
-    fn advice(&self) -> String {
-        "Write NAME=VALUE; docs/guide/parameters.md and docs/guide/paint.md list names, units and ranges".into()
-    }
-}
-
 impl<R: Parameters> FromStr for Setting<R> {
     type Err = SettingError;
 
@@ -542,8 +532,8 @@ impl<R: Parameters> FromStr for Setting<R> {
             }
             Kind::Choice(choice) => {
                 let mut options = choice.options.iter();
-                let place = options.position(|option| option.eq_ignore_ascii_case(written));
-                place.ok_or_else(|| SettingError::NotAnOption {
+                let index = options.position(|option| option.eq_ignore_ascii_case(written));
+                index.ok_or_else(|| SettingError::NotAnOption {
                     key,
                     found: found.clone(),
                     options: parameter.range_text(),

@@ -40,11 +40,6 @@ impl RefusalKind {
     pub fn message(&self) -> Message {
         Message::new(format!("refusal-{}", self.0.replace('_', "-")))
     }
-
-    /// True if an enrolled part fits only as its mirror image.
-    pub fn is_mirrored(&self) -> bool {
-        ["mirrored", "mirrored_image"].contains(&self.name())
-    }
 }
 
 impl fmt::Display for RefusalKind {

@@ -23,7 +23,7 @@ pub(super) const CAMERA_RANGE: [Metres; 2] = [Metres(0.1), Metres(20.0)];
 const MIN_LIKE_SCORE: f64 = 0.05;
 
 /// Returns whether the best match of an unknown part, with this score, is worth naming.
-pub fn is_like(score: f64) -> bool {
+pub(super) fn is_like(score: f64) -> bool {
     score >= MIN_LIKE_SCORE
 }
 

@@ -123,7 +123,7 @@ pub fn run_scan(
     // A stable sort: equal scores keep the library's order.
     entries.sort_by(|a, b| b.score.total_cmp(&a.score));
     let mut disagree_most = false;
-    for (place, entry) in entries.iter_mut().enumerate() {
+    for (index, entry) in entries.iter_mut().enumerate() {
         if let Some(pose) = &mut entry.pose {
             // The part is no better placed in the base frame than the robot's poses agree.
             let apart = middle.map(|middle| {
@@ -136,7 +136,7 @@ pub fn run_scan(
                 )
             });
             let bounds = pose.uncertainty.zip(apart);
-            if place == 0 {
+            if index == 0 {
                 disagree_most = bounds.is_some_and(|(own, apart)| apart.shift > own.shift);
             }
             pose.uncertainty = bounds.map(|(bounds, apart)| bounds.widened(&apart));
@@ -410,7 +410,7 @@ pub fn unseen_points(
     };
     let all = cloud.points.iter().zip(normals).enumerate();
     all.filter(|(_, both)| is_unseen(*both))
-        .map(|(place, _)| place)
+        .map(|(index, _)| index)
         .collect()
 }
 

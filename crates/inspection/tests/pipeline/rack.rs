@@ -25,15 +25,11 @@ fn full_rack() -> (SceneCloud, Library, Recipe, Vec<Inspection>) {
     (scene, library, recipe, found)
 }
 
-fn middle_of(one: &Inspection, library: &Library) -> Option<Point3<f64>> {
-    one.best_reference(library)?.middle()
-}
-
 /// A place for each of these parts, from right to left, as they hang.
 fn places_of(found: &[Inspection], library: &Library) -> RackFile {
     let mut file = RackFile::default();
     for (number, one) in (1..).zip(found.iter().rev()) {
-        let taken = file.take_place(&number.to_string(), one, middle_of(one, library), None);
+        let taken = file.take_place(&number.to_string(), one, one.middle(library), None);
         assert!(taken.expect("camera space"));
     }
     file
@@ -216,7 +212,7 @@ fn a_rack_in_the_base_frame_is_the_same_in_camera_space() {
     let taken = file.take_place(
         "1",
         &found[0],
-        middle_of(&found[0], &library),
+        found[0].middle(&library),
         Some(&base_from_camera),
     );
     assert!(taken.expect("calibrated"));

@@ -268,14 +268,14 @@ impl BundleStore {
         BundleError::Store {
             store: self.address.to_string(),
             doing,
-            source: Box::new(StoreError::of(error)),
+            source: Box::new(StoreError::from_object_store(error)),
         }
     }
 }
 
 fn folder(path: &FilePath) -> Result<Box<dyn ObjectStore>, StoreError> {
     let folder = LocalFileSystem::new_with_prefix(path);
-    let folder = folder.map_err(|error| StoreError::of(&error))?;
+    let folder = folder.map_err(|error| StoreError::from_object_store(&error))?;
     Ok(Box::new(folder.with_fsync(true)))
 }
 
@@ -293,7 +293,9 @@ fn s3(bucket: &str) -> Result<Box<dyn ObjectStore>, StoreError> {
         .with_retry(retry)
         .with_http_connector(Connector)
         .build();
-    Ok(Box::new(store.map_err(|error| StoreError::of(&error))?))
+    Ok(Box::new(
+        store.map_err(|error| StoreError::from_object_store(&error))?,
+    ))
 }
 
 /// Checks the environment variables: the client panics on bad ones, or puts them unchanged into every address and header.

@@ -1,7 +1,7 @@
 //! Errors of a store, worded for the person who chose its address and credentials.
 //!
 //! The client wraps each error several times. The [connector](super::connector) therefore puts a [`StoreError`] inside, where
-//! it still knows the connection and the store's whole answer; [`StoreError::of`] finds it again.
+//! it still knows the connection and the store's whole answer; [`StoreError::from_object_store`] finds it again.
 
 use std::{error::Error, io};
 
@@ -13,10 +13,11 @@ use files::{advice_on, words_of};
 use geometry::error::Advice;
 
 /// Why a store does not do what it is asked.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, Advice)]
 pub enum StoreError {
     /// A variable of the environment cannot be used.
     #[error("{name} {problem}")]
+    #[advice = "Correct {name} in the environment"]
     Setting {
         /// The variable.
         name: &'static str,
@@ -25,12 +26,15 @@ pub enum StoreError {
     },
     /// The endpoint is without encryption, which nobody allowed.
     #[error("AWS_ENDPOINT begins with http://, so nothing would be encrypted")]
+    #[advice = "Give AWS_ENDPOINT an address that begins with https://, or allow it with AWS_ALLOW_HTTP=true if nobody else can listen on this network"]
     Unencrypted,
     /// The environment has no credentials, and this computer has none from Amazon's cloud.
     #[error("there are no credentials in the environment")]
+    #[advice = "Set AWS_ACCESS_KEY_ID and AWS_SECRET_ACCESS_KEY in the environment"]
     NoCredentials,
     /// The host does not answer, or the connection broke.
     #[error("{host} cannot be reached: {cause}")]
+    #[advice(CHECK_NETWORK)]
     Unreachable {
         /// Host and port.
         host: String,
@@ -39,6 +43,7 @@ pub enum StoreError {
     },
     /// The host's certificate is not to be trusted.
     #[error("{host} cannot prove who it is: {cause}")]
+    #[advice = "Check AWS_ENDPOINT and the clock; if the plant has its own authority, name the file with its certificate in SSL_CERT_FILE"]
     Certificate {
         /// Host and port.
         host: String,
@@ -47,30 +52,41 @@ pub enum StoreError {
     },
     /// The answer takes too long.
     #[error("no answer in time")]
+    #[advice(CHECK_NETWORK)]
     Late,
     /// The store does not know the credentials.
     #[error("the store does not accept the credentials")]
+    #[advice = "Check AWS_ACCESS_KEY_ID, AWS_SECRET_ACCESS_KEY and AWS_SESSION_TOKEN in the environment"]
     WrongCredentials,
     /// The credentials are known, but not for this.
     #[error("the credentials do not allow this")]
+    #[advice = "Ask whoever runs the store for permission to list and read this bucket, and to publish also to write"]
     Forbidden,
     /// The clocks differ too much for a signature.
     #[error("the clocks of this computer and of the store differ too much")]
+    #[advice = "Set the clock of this computer"]
     Clock,
     /// The bucket does not exist.
     #[error("there is no such bucket")]
+    #[advice = "Check the name behind s3://, and AWS_ENDPOINT in the environment; a bucket is never created"]
     NoSuchBucket,
     /// The bucket is elsewhere.
     #[error("the bucket is in another region, or at another address")]
+    #[advice = "Set AWS_REGION to the region of the bucket, and check AWS_ENDPOINT"]
     Elsewhere,
     /// Any other answer that is an error.
     #[error("the store answers {answer}")]
+    #[advice = "Try again later; if the answer stays the same, ask whoever runs the store"]
     Answer {
         /// Status, and the code of S3 if there is one.
         answer: String,
     },
     /// The system does not read or write the folder.
     #[error("{cause}")]
+    #[advice(match kind {
+        io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => advice_on(&(*kind).into()),
+        _ => "Check that the folder exists, that its drive or share is connected, and that you may use it",
+    })]
     Folder {
         /// The kind of error, which decides on the advice.
         kind: io::ErrorKind,
@@ -79,6 +95,7 @@ pub enum StoreError {
     },
     /// Anything else.
     #[error("{cause}")]
+    #[advice = "Check the address of the store and the network; the installed library works without the store"]
     Other {
         /// The client's message.
         cause: String,
@@ -87,7 +104,7 @@ pub enum StoreError {
 
 impl StoreError {
     /// The cause of the client's error.
-    pub(super) fn of(error: &object_store::Error) -> Self {
+    pub(super) fn from_object_store(error: &object_store::Error) -> Self {
         let mut innermost: &(dyn Error + 'static) = error;
         loop {
             let found = innermost;
@@ -192,54 +209,7 @@ fn words_of_certificate(error: &CertificateError) -> String {
     }
 }
 
-impl Advice for StoreError {
-    fn advice(&self) -> String {
-        match self {
-            Self::Setting { name, .. } => format!("Correct {name} in the environment"),
-            Self::Unencrypted => {
-                "Give AWS_ENDPOINT an address that begins with https://, or allow it with AWS_ALLOW_HTTP=true if nobody else \
-                 can listen on this network"
-                    .into()
-            }
-            Self::NoCredentials => {
-                "Set AWS_ACCESS_KEY_ID and AWS_SECRET_ACCESS_KEY in the environment".into()
-            }
-            Self::Unreachable { .. } | Self::Late => {
-                "Check the network, and AWS_ENDPOINT in the environment; the installed library works without the store"
-                    .into()
-            }
-            Self::Certificate { .. } => {
-                "Check AWS_ENDPOINT and the clock; if the plant has its own authority, name the file with its certificate in \
-                 SSL_CERT_FILE"
-                    .into()
-            }
-            Self::WrongCredentials => {
-                "Check AWS_ACCESS_KEY_ID, AWS_SECRET_ACCESS_KEY and AWS_SESSION_TOKEN in the environment".into()
-            }
-            Self::Forbidden => {
-                "Ask whoever runs the store for permission to list and read this bucket, and to publish also to write".into()
-            }
-            Self::Clock => "Set the clock of this computer".into(),
-            Self::NoSuchBucket => {
-                "Check the name behind s3://, and AWS_ENDPOINT in the environment; a bucket is never created".into()
-            }
-            Self::Elsewhere => "Set AWS_REGION to the region of the bucket, and check AWS_ENDPOINT".into(),
-            Self::Answer { .. } => {
-                "Try again later; if the answer stays the same, ask whoever runs the store".into()
-            }
-            Self::Folder {
-                kind: kind @ (io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded),
-                ..
-            } => advice_on(&(*kind).into()).into(),
-            Self::Folder { .. } => {
-                "Check that the folder exists, that its drive or share is connected, and that you may use it".into()
-            }
-            Self::Other { .. } => {
-                "Check the address of the store and the network; the installed library works without the store".into()
-            }
-        }
-    }
-}
+const CHECK_NETWORK: &str = "Check the network, and AWS_ENDPOINT in the environment; the installed library works without the store";
 
 #[cfg(test)]
 mod tests {
@@ -299,12 +269,15 @@ mod tests {
             source: Box::new(io_like(source)),
         };
         let denied = HttpError::new(HttpErrorKind::Unknown, StoreError::Forbidden);
-        assert_eq!(StoreError::of(&wrapped(denied)), StoreError::Forbidden);
+        assert_eq!(
+            StoreError::from_object_store(&wrapped(denied)),
+            StoreError::Forbidden
+        );
         let full = object_store::Error::Generic {
             store: "LocalFileSystem",
             source: Box::new(io::Error::from(io::ErrorKind::StorageFull)),
         };
-        let text = text_of(&StoreError::of(&full));
+        let text = text_of(&StoreError::from_object_store(&full));
         assert_eq!(
             text,
             "the disk is full; Make room on the disk, or choose another one"
@@ -313,7 +286,7 @@ mod tests {
             store: "S3",
             source: "unexpected\n  answer: <?xml?><Error/>".into(),
         };
-        let text = text_of(&StoreError::of(&other));
+        let text = text_of(&StoreError::from_object_store(&other));
         assert!(text.starts_with("unexpected answer; "), "{text}");
     }
 

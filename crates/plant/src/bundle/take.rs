@@ -92,7 +92,7 @@ pub fn take(
         store: store.address().to_string(),
     })?;
     let version = asked.version.unwrap_or(newest);
-    let before = TakenBundle::of(library)?;
+    let before = TakenBundle::read(library)?;
     // Numbers of another publisher mean nothing here.
     let before = before.filter(|before| before.key == trusted.to_base64());
     let installed = before.as_ref().map(|before| before.manifest.version);
@@ -221,7 +221,7 @@ fn numbers_with(
     trusted: TrustedKey,
     manifest: &Manifest,
 ) -> Result<PartNumbers, BundleError> {
-    let before = TakenBundle::of(library)?.filter(|before| before.key == trusted.to_base64());
+    let before = TakenBundle::read(library)?.filter(|before| before.key == trusted.to_base64());
     let before = before.map_or_else(PartNumbers::default, |before| before.manifest.numbers);
     let mut numbers = library.numbers()?;
     numbers.add_published(&manifest.numbers, &before);
@@ -265,7 +265,7 @@ fn paths_to_keep(
     arriving: &[ArrivingPart],
     local: LocalParts,
 ) -> Result<Vec<(PartName, SprayPath)>, BundleError> {
-    let before = TakenBundle::of(library)?;
+    let before = TakenBundle::read(library)?;
     let before = before.as_ref().map(|before| &before.parts);
     let LocalContent { parts, spray_paths } = LocalContent::of(library, before, arriving)?;
     if parts.is_empty() || local == LocalParts::Trash {
@@ -277,7 +277,7 @@ fn paths_to_keep(
 
 impl TakenBundle {
     /// What a library was taken from last; none of one that was only ever enrolled.
-    pub fn of(library: &LibraryFolder) -> Result<Option<Self>, BundleError> {
+    pub fn read(library: &LibraryFolder) -> Result<Option<Self>, BundleError> {
         let path = library.file_beside_parts(RECORD);
         let bytes = match read_limited(&path, MAX_RECORD_BYTES) {
             Err(FileError::NotFound { .. }) => return Ok(None),

@@ -28,25 +28,16 @@ pub struct DatabaseAccess {
 }
 
 /// Why the access to a database cannot be set up.
-#[derive(Debug, Error)]
+#[derive(Debug, Error, Advice)]
 pub enum DatabaseAccessError {
     /// The password or the certificates cannot be used.
     #[error(transparent)]
+    #[advice(transparent)]
     Credential(#[from] CredentialError),
     /// Certificates are given for an unencrypted connection.
     #[error("certificates are given, but the connection to the database is not encrypted")]
+    #[advice = "Add ?sslmode=verify-full to the address, or leave --database-ca out"]
     NotEncrypted,
-}
-
-impl Advice for DatabaseAccessError {
-    fn advice(&self) -> String {
-        match self {
-            Self::Credential(error) => error.advice(),
-            Self::NotEncrypted => {
-                "Add ?sslmode=verify-full to the address, or leave --database-ca out".into()
-            }
-        }
-    }
 }
 
 impl DatabaseAccess {
@@ -111,18 +102,13 @@ impl DatabaseAccess {
 }
 
 /// Others on the network can read what is sent to a database.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, Debug, PartialEq, Eq, Error, Advice)]
 #[error(
     "the connection to {database} is not encrypted: anyone along the network path can read and change inspections"
 )]
+#[advice = "Leave sslmode=disable out, or use a separate network for the plant"]
 pub struct UnencryptedDatabase {
     database: DatabaseAddress,
-}
-
-impl Advice for UnencryptedDatabase {
-    fn advice(&self) -> String {
-        "Leave sslmode=disable out, or use a separate network for the plant".into()
-    }
 }
 
 #[cfg(test)]

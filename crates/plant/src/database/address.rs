@@ -27,7 +27,8 @@ pub struct DatabaseAddress {
 const MAX_NAME_BYTES: usize = 63;
 
 /// Why a text is not the address of a database.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, Debug, PartialEq, Eq, Error, Advice)]
+#[advice = "Give an address such as postgres://cell7@database.plant.example/partsight"]
 pub enum DatabaseAddressError {
     /// It does not begin with `postgres://` or `postgresql://`.
     #[error("the address of the database does not begin with postgres://")]
@@ -36,6 +37,7 @@ pub enum DatabaseAddressError {
     #[error(
         "the address contains a password, which everybody who lists the programs of this computer can read"
     )]
+    #[advice = "Write the password into a file that only you can read, and name it with --database-password-file"]
     Password,
     /// It has no user name.
     #[error("the address names no user")]
@@ -54,42 +56,28 @@ pub enum DatabaseAddressError {
     },
     /// The name of the user or the database has a character that is not allowed, or a wrong length.
     #[error("{name:?} is not a valid name of a user or a database")]
+    #[advice = "Give 1 to {MAX_NAME_BYTES} letters, digits and -_. such as postgres://cell7@database/partsight"]
     Name {
         /// The name as given.
         name: String,
     },
     /// It has an option other than `sslmode`.
     #[error("the address has an unknown option: {option:?}")]
+    #[advice(LEAVE_OPTIONS_OUT)]
     Option {
         /// Name of the option.
         option: String,
     },
     /// The `sslmode` is unknown, or would not protect the connection.
     #[error("sslmode={mode} is not supported")]
+    #[advice(LEAVE_OPTIONS_OUT)]
     SslMode {
         /// The mode as given.
         mode: String,
     },
 }
 
-impl Advice for DatabaseAddressError {
-    fn advice(&self) -> String {
-        match self {
-            Self::Password => {
-                "Write the password into a file that only you can read, and name it with --database-password-file".into()
-            }
-            Self::Name { .. } => format!(
-                "Give 1 to {MAX_NAME_BYTES} letters, digits and -_. such as postgres://cell7@database/partsight"
-            ),
-            Self::Option { .. } | Self::SslMode { .. } => {
-                "Leave the options out, or give sslmode=verify-full (encrypted, the server shows a certificate) or sslmode=disable (not encrypted)".into()
-            }
-            Self::Scheme | Self::NoUser | Self::Host { .. } | Self::Port { .. } => {
-                "Give an address such as postgres://cell7@database.plant.example/partsight".into()
-            }
-        }
-    }
-}
+const LEAVE_OPTIONS_OUT: &str = "Leave the options out, or give sslmode=verify-full (encrypted, the server shows a certificate) or sslmode=disable (not encrypted)";
 
 impl FromStr for DatabaseAddress {
     type Err = DatabaseAddressError;

@@ -14,16 +14,11 @@ pub struct CellName(String);
 const MAX_LETTERS: usize = 64;
 
 /// A text is not a valid name of a cell.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, Debug, PartialEq, Eq, Error, Advice)]
 #[error("{name:?} is not a valid name of a cell")]
+#[advice = "Give 1 to {MAX_LETTERS} letters on one line, without blanks at the ends"]
 pub struct BadCellName {
     name: String,
-}
-
-impl Advice for BadCellName {
-    fn advice(&self) -> String {
-        format!("Give 1 to {MAX_LETTERS} letters on one line, without blanks at the ends")
-    }
 }
 
 impl FromStr for CellName {

@@ -47,7 +47,7 @@ impl Link {
         work: impl Future<Output = Result<T, tokio_postgres::Error>>,
     ) -> Result<T, DatabaseError> {
         match self.runtime.block_on(async { timeout(limit, work).await }) {
-            Ok(done) => done.map_err(|error| DatabaseError::of(&error, &self.address)),
+            Ok(done) => done.map_err(|error| DatabaseError::from_postgres(&error, &self.address)),
             Err(_elapsed) => Err(DatabaseError::Unreachable {
                 database: self.address.clone(),
                 cause: "it does not answer".into(),
@@ -99,9 +99,9 @@ impl Database {
     pub(super) fn read<'a, T: tokio_postgres::types::FromSql<'a>>(
         &self,
         row: &'a tokio_postgres::Row,
-        place: usize,
+        index: usize,
     ) -> Result<T, DatabaseError> {
-        let value = row.try_get(place);
+        let value = row.try_get(index);
         value.map_err(|error| DatabaseError::Failed {
             database: self.link.address.clone(),
             cause: format!("the tables of the history are not as they were made: {error}"),

@@ -11,10 +11,11 @@ use geometry::error::{Advice, Fault};
 use records::history::HistoryError;
 
 /// Why the plant's database cannot be used.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, Debug, PartialEq, Eq, Error, Advice)]
 pub enum DatabaseError {
     /// The server does not answer, or the connection was lost.
     #[error("{database} cannot be reached: {cause}")]
+    #[advice = "Check the server and the network. Cells go on inspecting; what is not sent yet stays in their own histories"]
     Unreachable {
         /// The database.
         database: Box<DatabaseAddress>,
@@ -23,6 +24,7 @@ pub enum DatabaseError {
     },
     /// The server refuses the login.
     #[error("{database} refuses the connection: {cause}")]
+    #[advice = "Check the user in the address, --database-password-file, and what the server's pg_hba.conf allows"]
     Refused {
         /// The database.
         database: Box<DatabaseAddress>,
@@ -31,12 +33,18 @@ pub enum DatabaseError {
     },
     /// The server has no such database.
     #[error("{database}: there is no such database")]
+    #[advice("Create it once: CREATE DATABASE \"{}\" ENCODING 'UTF8' TEMPLATE template0", database.name)]
     NotFound {
         /// The database.
         database: Box<DatabaseAddress>,
     },
     /// The encrypted connection cannot be established.
     #[error("no encrypted connection to {database}: {cause}")]
+    #[advice(if cause.contains("does not support TLS") {
+        "Turn on ssl at the server, or end the address in ?sslmode=disable if nobody else can listen on this network"
+    } else {
+        "Check that the address names the host in the server's certificate, and --database-ca the authority that signed it"
+    })]
     Tls {
         /// The database.
         database: Box<DatabaseAddress>,
@@ -45,6 +53,7 @@ pub enum DatabaseError {
     },
     /// The user lacks a privilege.
     #[error("{database}: the user may not read or write the history there: {cause}")]
+    #[advice("Have the database's owner send once, or grant this user what it needs: GRANT CREATE ON DATABASE \"{}\", or USAGE on the schema partsight and SELECT, INSERT, UPDATE on its tables", database.name)]
     Forbidden {
         /// The database.
         database: Box<DatabaseAddress>,
@@ -53,6 +62,7 @@ pub enum DatabaseError {
     },
     /// The database's encoding cannot store every text.
     #[error("{database} stores text as {encoding}, which cannot represent every name")]
+    #[advice = "Use a database that was created with ENCODING 'UTF8'"]
     Encoding {
         /// The database.
         database: Box<DatabaseAddress>,
@@ -63,6 +73,7 @@ pub enum DatabaseError {
     #[error(
         "{database}: the history there is kept by a newer version of Partsight (format {found}, this one knows {known})"
     )]
+    #[advice = "Update Partsight on this computer"]
     Newer {
         /// The database.
         database: Box<DatabaseAddress>,
@@ -75,6 +86,8 @@ pub enum DatabaseError {
     #[error(
         "{database}: the tables there are of an older version of Partsight (format {found}; this version needs {known})"
     )]
+    #[advice = "Let a cell with this version send once as the user who owns the tables, which upgrades them: partsight history send --to \
+               ADDRESS --cell NAME. Older versions cannot use them from then on"]
     Older {
         /// The database.
         database: Box<DatabaseAddress>,
@@ -85,12 +98,14 @@ pub enum DatabaseError {
     },
     /// No cell has sent anything yet.
     #[error("{database}: there is no history yet")]
+    #[advice = "Send a history there first: partsight history send --to ADDRESS --cell NAME"]
     Empty {
         /// The database.
         database: Box<DatabaseAddress>,
     },
     /// There is no cell of that name.
     #[error("{database}: there is no cell {:?}", cell.as_str())]
+    #[advice("Give one of {}", known.join(", "))]
     NoSuchCell {
         /// The database.
         database: Box<DatabaseAddress>,
@@ -101,6 +116,7 @@ pub enum DatabaseError {
     },
     /// The cell's name belongs to another history.
     #[error("{database}: the cell {:?} belongs to another history", cell.as_str())]
+    #[advice = "Give each cell a name of its own with --cell; if this history replaces the other one, whose computer or disk is gone, send it once with --take-over"]
     Taken {
         /// The database.
         database: Box<DatabaseAddress>,
@@ -112,6 +128,7 @@ pub enum DatabaseError {
         "{database}: the cell {:?} has other inspections under the numbers of this history: one is a copy of the other",
         cell.as_str()
     )]
+    #[advice = "Send this history under another name with --cell; each keeps its own inspections"]
     Copied {
         /// The database.
         database: Box<DatabaseAddress>,
@@ -120,6 +137,7 @@ pub enum DatabaseError {
     },
     /// The server reports any other error.
     #[error("{database}: {cause}")]
+    #[advice = "Check the log of the database's server; what is not sent stays in the history here"]
     Failed {
         /// The database.
         database: Box<DatabaseAddress>,
@@ -129,7 +147,7 @@ pub enum DatabaseError {
 }
 
 impl DatabaseError {
-    pub(super) fn of(error: &tokio_postgres::Error, database: &DatabaseAddress) -> Self {
+    pub(super) fn from_postgres(error: &tokio_postgres::Error, database: &DatabaseAddress) -> Self {
         let database = Box::new(database.clone());
         let Some(reported) = error.as_db_error() else {
             return Self::of_connection(error, database);
@@ -173,78 +191,19 @@ impl DatabaseError {
     }
 }
 
-impl Advice for DatabaseError {
-    fn advice(&self) -> String {
-        match self {
-            Self::Unreachable { .. } => {
-                "Check the server and the network. Cells go on inspecting; what is not sent yet stays in their own \
-                 histories".into()
-            }
-            Self::Refused { .. } => {
-                "Check the user in the address, --database-password-file, and what the server's pg_hba.conf allows".into()
-            }
-            Self::NotFound { database } => format!(
-                "Create it once: CREATE DATABASE \"{}\" ENCODING 'UTF8' TEMPLATE template0",
-                database.name
-            ),
-            Self::Tls { cause, .. } if cause.contains("does not support TLS") => {
-                "Turn on ssl at the server, or end the address in ?sslmode=disable if nobody else can listen on this network"
-                    .into()
-            }
-            Self::Tls { .. } => {
-                "Check that the address names the host in the server's certificate, and --database-ca the authority \
-                 that signed it".into()
-            }
-            Self::Forbidden { database, .. } => format!(
-                "Have the database's owner send once, or grant this user what it needs: GRANT CREATE ON DATABASE \
-                 \"{}\", or USAGE on the schema partsight and SELECT, INSERT, UPDATE on its tables",
-                database.name
-            ),
-            Self::Encoding { .. } => {
-                "Use a database that was created with ENCODING 'UTF8'".into()
-            }
-            Self::Newer { .. } => "Update Partsight on this computer".into(),
-            Self::Older { .. } => {
-                "Let a cell with this version send once as the user who owns the tables, which upgrades them: \
-                 partsight history send --to ADDRESS --cell NAME. Older versions cannot use them from then on".into()
-            }
-            Self::Empty { .. } => {
-                "Send a history there first: partsight history send --to ADDRESS --cell NAME".into()
-            }
-            Self::NoSuchCell { known, .. } => format!("Give one of {}", known.join(", ")),
-            Self::Taken { .. } => {
-                "Give each cell a name of its own with --cell; if this history replaces the other one, whose computer or disk is gone, send it once with --take-over".into()
-            }
-            Self::Copied { .. } => {
-                "Send this history under another name with --cell; each keeps its own inspections".into()
-            }
-            Self::Failed { .. } => {
-                "Check the log of the database's server; what is not sent stays in the history here".into()
-            }
-        }
-    }
-}
-
 /// Why rows could not be sent or read.
-#[derive(Debug, Error)]
+#[derive(Debug, Error, Advice)]
 pub enum TransferError {
     /// The database failed.
     #[error(transparent)]
+    #[advice(transparent)]
     Database(#[from] DatabaseError),
     /// The local history could not be read or written.
     #[error(transparent)]
+    #[advice(transparent)]
     History(#[from] HistoryError),
     /// The program itself failed.
     #[error(transparent)]
+    #[advice(transparent)]
     Fault(#[from] Fault),
-}
-
-impl Advice for TransferError {
-    fn advice(&self) -> String {
-        match self {
-            Self::Database(error) => error.advice(),
-            Self::History(error) => error.advice(),
-            Self::Fault(fault) => fault.advice(),
-        }
-    }
 }

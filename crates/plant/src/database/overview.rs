@@ -152,10 +152,10 @@ impl Database {
             num_all: num_all as usize,
         };
         for row in self.query(&asked, &condition.values)? {
-            let (values, place) = self.values(&row, &INSPECTION_COLUMNS)?;
+            let (values, index) = self.values(&row, &INSPECTION_COLUMNS)?;
             let summary = reader.summary(values);
             let summary = summary.map_err(|error| self.unreadable(&error))?;
-            page.rows.push((self.read(&row, place)?, summary));
+            page.rows.push((self.read(&row, index)?, summary));
         }
         Ok(page)
     }
@@ -247,11 +247,11 @@ impl Database {
         );
         let rows = self.query(&asked, &condition.values)?;
         let read = |row: &Row| {
-            let (values, place) = self.values(row, &columns)?;
+            let (values, index) = self.values(row, &columns)?;
             let record = reader.record(values);
             Ok(CellRecord {
-                cell: self.read(row, place)?,
-                history: self.read(row, place + 1)?,
+                cell: self.read(row, index)?,
+                history: self.read(row, index + 1)?,
                 record: record.map_err(|error| self.unreadable(&error))?,
                 at: self.read(row, AT)?,
             })
@@ -316,13 +316,13 @@ impl Database {
     /// Reads the columns of a row and the number of re-inspections; also returns the position of the next column.
     fn values(&self, row: &Row, columns: &[Column]) -> Result<(Vec<Value>, usize), DatabaseError> {
         let mut values = Vec::with_capacity(columns.len() + 1);
-        for (place, (_, kind)) in columns.iter().enumerate() {
+        for (index, (_, kind)) in columns.iter().enumerate() {
             values.push(match kind {
-                ColumnKind::Boolean => self.value::<bool>(row, place)?,
-                ColumnKind::Integer => self.value::<i64>(row, place)?,
-                ColumnKind::Real => self.value::<f64>(row, place)?,
-                ColumnKind::Text => self.value::<String>(row, place)?,
-                ColumnKind::Bytes => self.value::<Vec<u8>>(row, place)?,
+                ColumnKind::Boolean => self.value::<bool>(row, index)?,
+                ColumnKind::Integer => self.value::<i64>(row, index)?,
+                ColumnKind::Real => self.value::<f64>(row, index)?,
+                ColumnKind::Text => self.value::<String>(row, index)?,
+                ColumnKind::Bytes => self.value::<Vec<u8>>(row, index)?,
             });
         }
         values.push(self.value::<i64>(row, columns.len())?);
@@ -332,9 +332,9 @@ impl Database {
     fn value<'a, T: FromSql<'a> + Into<Value>>(
         &self,
         row: &'a Row,
-        place: usize,
+        index: usize,
     ) -> Result<Value, DatabaseError> {
-        let value: Option<T> = self.read(row, place)?;
+        let value: Option<T> = self.read(row, index)?;
         Ok(value.map_or(Value::Null, Into::into))
     }
 

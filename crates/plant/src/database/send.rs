@@ -52,8 +52,8 @@ impl Database {
             ("detail", &DETAIL_COLUMNS[..], &rows.details),
         ] {
             let mut values = identity_of(whose);
-            for (place, (_, kind)) in columns.iter().enumerate() {
-                values.push(array(*kind, rows, place));
+            for (index, (_, kind)) in columns.iter().enumerate() {
+                values.push(array(*kind, rows, index));
             }
             let statement = upsert(table, columns);
             link.wait(transaction.execute(statement.as_str(), &borrowed(&values)))?;
@@ -80,9 +80,9 @@ fn refuse_copy(
 ) -> Result<(), DatabaseError> {
     let mut values = identity_of(whose);
     // `number`, `at` and `hung` come in this order among the columns.
-    for (place, (name, kind)) in INSPECTION_COLUMNS.iter().enumerate() {
+    for (index, (name, kind)) in INSPECTION_COLUMNS.iter().enumerate() {
         if ["number", "at", "hung"].contains(name) {
-            values.push(array(*kind, inspections, place));
+            values.push(array(*kind, inspections, index));
         }
     }
     let row = link.wait(transaction.query_one(IS_COPIED, &borrowed(&values)))?;
@@ -138,8 +138,8 @@ fn upsert(table: &str, columns: &[Column]) -> String {
 }
 
 /// The values of one column of the rows.
-fn array(kind: ColumnKind, rows: &[Vec<Value>], place: usize) -> Array {
-    let values = rows.iter().map(|row| row.get(place));
+fn array(kind: ColumnKind, rows: &[Vec<Value>], index: usize) -> Array {
+    let values = rows.iter().map(|row| row.get(index));
     match kind {
         ColumnKind::Boolean => {
             let values = values.map(|value| integer(value).map(|value| value != 0));

@@ -48,43 +48,28 @@ pub enum SendNews {
 }
 
 /// Why sending fails at present.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, Debug, PartialEq, Eq, Error, Advice)]
 #[error("{what}")]
+#[advice = "{advice}"]
 pub struct SendProblem {
     what: String,
     advice: String,
 }
 
-impl Advice for SendProblem {
-    fn advice(&self) -> String {
-        self.advice.clone()
-    }
-}
-
 /// The system refuses a thread for a sender.
-#[derive(Debug, Error)]
+#[derive(Debug, Error, Advice)]
 #[error("the thread that sends the history cannot be started: {source}")]
+#[advice = "Close other programs and start again"]
 pub struct SenderError {
     source: io::Error,
 }
 
-impl Advice for SenderError {
-    fn advice(&self) -> String {
-        "Close other programs and start again".into()
-    }
-}
-
 /// Some inspections were still unsent at the end of the program.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, Debug, PartialEq, Eq, Error, Advice)]
 #[error("{num} inspections are not in the plant's database yet")]
+#[advice = "Nothing is lost: they are sent at the next start, or now by partsight history send"]
 pub struct Unsent {
     num: usize,
-}
-
-impl Advice for Unsent {
-    fn advice(&self) -> String {
-        "Nothing is lost: they are sent at the next start, or now by partsight history send".into()
-    }
 }
 
 /// Keeps a database up to date with the history in a folder. Dropping it is the same as [`Self::end`].

@@ -12,25 +12,30 @@ use robot::Convention;
 use serve::ServeError;
 
 /// Why HTTP cannot be served.
-#[derive(Debug, Error)]
+#[derive(Debug, Error, Advice)]
 pub enum HttpError {
     /// The system refuses to listen at the address, or refuses a thread.
     #[error(transparent)]
+    #[advice(transparent)]
     Serve(#[from] ServeError),
     /// The address is reachable by other computers, and no token is required.
     #[error("{address} is open to the network, but no token is required")]
+    #[advice = "Write a token into a file and name it with --http-token-file, or give the port alone, which only this computer reaches"]
     OpenWithoutToken {
         /// The address to listen at.
         address: SocketAddr,
     },
     /// The convention of poses was not chosen.
     #[error("HTTP has no convention of its own for poses, and none is chosen")]
+    #[advice("Choose with --as: {}", Convention::ALL.map(Convention::name).join(", "))]
     NoConvention,
     /// A file with tokens, a certificate or a key cannot be read.
     #[error(transparent)]
+    #[advice(transparent)]
     File(#[from] FileError),
     /// The token file has no token.
     #[error("{} has no token", path.display())]
+    #[advice(WRITE_TOKENS)]
     NoToken {
         /// Path of the file.
         path: PathBuf,
@@ -41,6 +46,7 @@ pub enum HttpError {
          blanks",
         path.display()
     )]
+    #[advice(WRITE_TOKENS)]
     BadToken {
         /// Path of the file.
         path: PathBuf,
@@ -49,6 +55,7 @@ pub enum HttpError {
     },
     /// The file lacks the expected PEM section.
     #[error("{} has no {what} in PEM form: {reason}", path.display())]
+    #[advice = "Give a file with a {what} between -----BEGIN and -----END lines"]
     NotPem {
         /// Path of the file.
         path: PathBuf,
@@ -59,6 +66,7 @@ pub enum HttpError {
     },
     /// The certificate and its key do not belong together, or are unusable.
     #[error("the certificate in {} cannot be used with its key: {source}", path.display())]
+    #[advice = "Give the certificate with --http-cert, its chain behind it in the same file, and the key that it was made for with --http-key"]
     BadCertificate {
         /// Path of the certificate file.
         path: PathBuf,
@@ -67,27 +75,4 @@ pub enum HttpError {
     },
 }
 
-impl Advice for HttpError {
-    fn advice(&self) -> String {
-        match self {
-            Self::Serve(error) => error.advice(),
-            Self::OpenWithoutToken { .. } => {
-                "Write a token into a file and name it with --http-token-file, or give the port alone, which only this computer reaches".into()
-            }
-            Self::NoConvention => {
-                let names = Convention::ALL.map(Convention::name);
-                format!("Choose with --as: {}", names.join(", "))
-            }
-            Self::File(error) => error.advice(),
-            Self::NoToken { .. } | Self::BadToken { .. } => {
-                "Write one token on each line; openssl rand -hex 32 makes one".into()
-            }
-            Self::NotPem { what, .. } => {
-                format!("Give a file with a {what} between -----BEGIN and -----END lines")
-            }
-            Self::BadCertificate { .. } => {
-                "Give the certificate with --http-cert, its chain behind it in the same file, and the key that it was made for with --http-key".into()
-            }
-        }
-    }
-}
+const WRITE_TOKENS: &str = "Write one token on each line; openssl rand -hex 32 makes one";

@@ -9,23 +9,32 @@ use geometry::error::Advice;
 pub(super) const MAX_BODY_BYTES: usize = 1024;
 
 /// Why a request is refused.
-#[derive(Clone, Copy, Debug, Error)]
+#[derive(Clone, Copy, Debug, Error, Advice)]
 pub(super) enum Refusal {
     #[error("no token was sent, or a wrong one")]
+    #[advice = "Send a line of the file of --http-token-file as Authorization: Bearer TOKEN"]
     WrongToken,
     #[error("the request comes from a web page")]
+    #[advice = "Ask from a program, by 127.0.0.1 or localhost; a page needs a token: start the server with --http-token-file"]
     WebPage,
     #[error("there is no such path")]
+    #[advice = "GET /v1/openapi.json lists the paths"]
     NoSuchPath,
     #[error("the path does not support this method")]
+    #[advice = "POST /v1/trigger, and GET the other paths"]
     WrongMethod,
     #[error("the body does not say which parts are expected")]
+    #[advice = "Send no body, or the numbers of up to 8 expected parts, and of their places: {{\"expected\": [3, 5], \"places\": [1, 2]}}; \
+               or, instead, an order, a serial number or both: {{\"order\": \"4711\", \"serial\": \"TL-1\"}}"]
     BadBody,
     #[error("the request does not say whose path is wanted")]
+    #[advice = "Give the sequence number of your trigger's answer: GET /v1/path?sequence=41"]
     NoSequence,
     #[error("the request was not complete after {seconds} s")]
+    #[advice = "Send the complete request, with its body"]
     Incomplete { seconds: u64 },
     #[error("the body is longer than {} bytes", MAX_BODY_BYTES)]
+    #[advice = "Send no body; with a trigger, one of up to 1024 bytes"]
     TooLong,
 }
 
@@ -53,29 +62,6 @@ impl Refusal {
             Self::BadBody | Self::NoSequence => StatusCode::BAD_REQUEST,
             Self::Incomplete { .. } => StatusCode::REQUEST_TIMEOUT,
             Self::TooLong => StatusCode::PAYLOAD_TOO_LARGE,
-        }
-    }
-}
-
-impl Advice for Refusal {
-    fn advice(&self) -> String {
-        match self {
-            Self::WrongToken => {
-                "Send a line of the file of --http-token-file as Authorization: Bearer TOKEN".into()
-            }
-            Self::WebPage => {
-                "Ask from a program, by 127.0.0.1 or localhost; a page needs a token: start the server with --http-token-file".into()
-            }
-            Self::NoSuchPath => "GET /v1/openapi.json lists the paths".into(),
-            Self::WrongMethod => "POST /v1/trigger, and GET the other paths".into(),
-            Self::NoSequence => {
-                "Give the sequence number of your trigger's answer: GET /v1/path?sequence=41".into()
-            }
-            Self::Incomplete { .. } => "Send the complete request, with its body".into(),
-            Self::BadBody => {
-                "Send no body, or the numbers of up to 8 expected parts, and of their places: {\"expected\": [3, 5], \"places\": [1, 2]}; or, instead, an order, a serial number or both: {\"order\": \"4711\", \"serial\": \"TL-1\"}".into()
-            }
-            Self::TooLong => "Send no body; with a trigger, one of up to 1024 bytes".into(),
         }
     }
 }

@@ -62,20 +62,14 @@ impl HttpSettings {
 }
 
 /// Others on the network can read what HTTP sends, including the tokens.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error, Advice)]
 #[error(
     "http={address} is open to the network without encryption: anyone along the network path can read the token and \
      the poses"
 )]
+#[advice = "Give a certificate with --http-cert and --http-key, or use a separate network for the cell"]
 pub struct TokenInTheOpen {
     address: SocketAddr,
-}
-
-impl Advice for TokenInTheOpen {
-    fn advice(&self) -> String {
-        "Give a certificate with --http-cert and --http-key, or use a separate network for the cell"
-            .into()
-    }
 }
 
 /// An HTTP server beside an inspection server's listeners. It ends with that server or when it is dropped, which joins its

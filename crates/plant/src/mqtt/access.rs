@@ -24,27 +24,20 @@ pub struct BrokerAccess {
 }
 
 /// Why the access to a broker cannot be set up.
-#[derive(Debug, Error)]
+#[derive(Debug, Error, Advice)]
 pub enum AccessError {
     /// The password or the certificates cannot be used.
     #[error(transparent)]
+    #[advice(transparent)]
     Credential(#[from] CredentialError),
     /// A password was given without a user name.
     #[error("a password is given, but no user")]
+    #[advice = "Name the user in the address: mqtt://USER@HOST/PREFIX"]
     NoUser,
     /// Certificates are given for an unencrypted connection.
     #[error("certificates are given, but mqtt:// is not encrypted")]
+    #[advice = "Begin the address with mqtts://, or leave --mqtt-ca out"]
     NotEncrypted,
-}
-
-impl Advice for AccessError {
-    fn advice(&self) -> String {
-        match self {
-            Self::Credential(error) => error.advice(),
-            Self::NoUser => "Name the user in the address: mqtt://USER@HOST/PREFIX".into(),
-            Self::NotEncrypted => "Begin the address with mqtts://, or leave --mqtt-ca out".into(),
-        }
-    }
 }
 
 impl BrokerAccess {
@@ -104,18 +97,13 @@ impl BrokerAccess {
 const MAX_PACKET_BYTES: usize = 1 << 20;
 
 /// Others on the network can read what is sent to a broker.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, Debug, PartialEq, Eq, Error, Advice)]
 #[error(
     "the connection to {broker} is not encrypted: anyone along the network path can read and change verdicts, poses and the password"
 )]
+#[advice = "Use mqtts://, or a separate network for the plant"]
 pub struct Unencrypted {
     broker: BrokerAddress,
-}
-
-impl Advice for Unencrypted {
-    fn advice(&self) -> String {
-        "Use mqtts://, or a separate network for the plant".into()
-    }
 }
 
 #[cfg(test)]

@@ -26,7 +26,8 @@ pub struct BrokerAddress {
 const MAX_PREFIX_BYTES: usize = 200;
 
 /// Why a text is not the address of a broker.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, Debug, PartialEq, Eq, Error, Advice)]
+#[advice = "Give the address as mqtt[s]://[USER@]HOST[:PORT]/PREFIX, such as mqtt://broker/cell7 or mqtts://user@192.168.1.5:8883/hall3/cell7"]
 pub enum AddressError {
     /// It does not begin with `mqtt://` or `mqtts://`.
     #[error("the address of the broker does not begin with mqtt:// or mqtts://")]
@@ -35,6 +36,7 @@ pub enum AddressError {
     #[error(
         "the address contains a password, which everybody who lists the programs of this computer can read"
     )]
+    #[advice = "Write the password into a file that only you can read, and name it with --mqtt-password-file"]
     Password,
     /// The host is missing, or is neither a name nor an IP address.
     #[error("{host:?} is not the name or IP address of a broker")]
@@ -44,6 +46,7 @@ pub enum AddressError {
     },
     /// An encrypted connection to an IPv6 address: certificates do not name addresses in brackets.
     #[error("an encrypted connection needs the broker's name, not {host}")]
+    #[advice = "Give the name in the broker's certificate"]
     EncryptedIpv6 {
         /// The host as given.
         host: String,
@@ -59,29 +62,11 @@ pub enum AddressError {
     NoPrefix,
     /// The topic prefix is not valid.
     #[error("{prefix:?} is not a valid topic prefix")]
+    #[advice = "Give 1 to {MAX_PREFIX_BYTES} letters, digits and slashes, without +, # and a $ at the beginning, such as mqtt://broker/hall3/cell7"]
     Prefix {
         /// The prefix as given.
         prefix: String,
     },
-}
-
-impl Advice for AddressError {
-    fn advice(&self) -> String {
-        match self {
-            Self::Password => {
-                "Write the password into a file that only you can read, and name it with --mqtt-password-file".into()
-            }
-            Self::Prefix { .. } => format!(
-                "Give 1 to {MAX_PREFIX_BYTES} letters, digits and slashes, without +, # and a $ at the beginning, such as mqtt://broker/hall3/cell7"
-            ),
-            Self::EncryptedIpv6 { .. } => {
-                "Give the name in the broker's certificate".into()
-            }
-            Self::Scheme | Self::Host { .. } | Self::Port { .. } | Self::NoPrefix => {
-                "Give the address as mqtt[s]://[USER@]HOST[:PORT]/PREFIX, such as mqtt://broker/cell7 or mqtts://user@192.168.1.5:8883/hall3/cell7".into()
-            }
-        }
-    }
 }
 
 impl FromStr for BrokerAddress {

@@ -294,7 +294,7 @@ impl Shared {
         network.set_tcp_nodelay(true);
         connection.eventloop.set_network_options(network);
         for event in connection.iter() {
-            match event.map_err(|error| LinkProblem::of(error, &self.broker))? {
+            match event.map_err(|error| LinkProblem::from_connection(error, &self.broker))? {
                 Event::Incoming(Packet::ConnAck(_)) => self.connected(client.clone()),
                 Event::Incoming(Packet::PubAck(_)) => {
                     let mut outbox = lock(&self.outbox);

@@ -24,10 +24,11 @@ pub enum LinkNews {
 }
 
 /// Why there is no connection.
-#[derive(Clone, Debug, PartialEq, Error)]
+#[derive(Clone, Debug, PartialEq, Error, Advice)]
 pub enum LinkProblem {
     /// The broker does not answer.
     #[error("{broker} cannot be reached: {cause}")]
+    #[advice = "Check the broker and the network; inspections continue, and the connection is retried"]
     Unreachable {
         /// The broker.
         broker: BrokerAddress,
@@ -36,6 +37,7 @@ pub enum LinkProblem {
     },
     /// The broker refuses the login.
     #[error("{broker} refuses the connection: {cause}")]
+    #[advice = "Check the user in --mqtt, --mqtt-password-file and the broker's list of users; the connection is retried"]
     Refused {
         /// The broker.
         broker: BrokerAddress,
@@ -44,6 +46,7 @@ pub enum LinkProblem {
     },
     /// The encrypted connection cannot be established.
     #[error("no encrypted connection to {broker}: {cause}")]
+    #[advice = "Check that --mqtt names the host in the broker's certificate, and --mqtt-ca the authority that signed it"]
     Tls {
         /// The broker.
         broker: BrokerAddress,
@@ -52,6 +55,7 @@ pub enum LinkProblem {
     },
     /// An existing connection broke.
     #[error("the connection to {broker} was lost: {cause}")]
+    #[advice = "Check the broker and the network, and that no other program publishes under this topic prefix; the connection is retried"]
     Broken {
         /// The broker.
         broker: BrokerAddress,
@@ -60,11 +64,12 @@ pub enum LinkProblem {
     },
     /// The program itself failed.
     #[error(transparent)]
+    #[advice(transparent)]
     Fault(#[from] Fault),
 }
 
 impl LinkProblem {
-    pub(super) fn of(error: ConnectionError, broker: &BrokerAddress) -> Self {
+    pub(super) fn from_connection(error: ConnectionError, broker: &BrokerAddress) -> Self {
         let broker = broker.clone();
         match error {
             ConnectionError::Io(error) => Self::Unreachable {
@@ -104,52 +109,19 @@ impl LinkProblem {
     }
 }
 
-impl Advice for LinkProblem {
-    fn advice(&self) -> String {
-        match self {
-            Self::Unreachable { .. } => {
-                "Check the broker and the network; inspections continue, and the connection is retried".into()
-            }
-            Self::Refused { .. } => {
-                "Check the user in --mqtt, --mqtt-password-file and the broker's list of users; the connection is \
-                 retried".into()
-            }
-            Self::Tls { .. } => {
-                "Check that --mqtt names the host in the broker's certificate, and --mqtt-ca the authority that \
-                 signed it".into()
-            }
-            Self::Broken { .. } => {
-                "Check the broker and the network, and that no other program publishes under this topic prefix; the \
-                 connection is retried".into()
-            }
-            Self::Fault(fault) => fault.advice(),
-        }
-    }
-}
-
 /// The system refuses a thread for a link.
-#[derive(Debug, Error)]
+#[derive(Debug, Error, Advice)]
 #[error("the thread for MQTT cannot be started: {source}")]
+#[advice = "Close other programs and start again"]
 pub struct LinkError {
     pub(super) source: io::Error,
 }
 
-impl Advice for LinkError {
-    fn advice(&self) -> String {
-        "Close other programs and start again".into()
-    }
-}
-
 /// Some inspections were still unsent at the end of the program.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, Debug, PartialEq, Eq, Error, Advice)]
 #[error("inspections that did not reach {broker}: {num}")]
+#[advice = "Look them up in the history: partsight history list"]
 pub struct Unsent {
     pub(super) num: u64,
     pub(super) broker: BrokerAddress,
-}
-
-impl Advice for Unsent {
-    fn advice(&self) -> String {
-        "Look them up in the history: partsight history list".into()
-    }
 }

@@ -66,8 +66,8 @@ impl Calibration {
             })
             .collect();
         for (score, is_right) in guesses {
-            let place = ((score * NUM_BINS as f64) as usize).min(NUM_BINS - 1);
-            let bin = &mut bins[place];
+            let index = ((score * NUM_BINS as f64) as usize).min(NUM_BINS - 1);
+            let bin = &mut bins[index];
             bin.num += 1;
             bin.num_right += usize::from(is_right);
             // Holds the sum until all are counted.

@@ -63,7 +63,7 @@ impl Changes {
                 before: case.found.clone(),
                 now: result.found.clone(),
                 judgements: [
-                    CaseOutcome::of(&result.truth, &case.found.answered()),
+                    CaseOutcome::new(&result.truth, &case.found.answered()),
                     result.judgement(),
                 ],
             };

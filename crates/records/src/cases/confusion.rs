@@ -63,7 +63,7 @@ impl Confusion {
         };
         let mut truths = BTreeSet::new();
         let mut parts = BTreeSet::new();
-        for (place, result) in results.iter().enumerate() {
+        for (index, result) in results.iter().enumerate() {
             let answered = result.found.answered();
             truths.insert(result.truth.clone());
             parts.extend(result.truth.part().map(str::to_owned));
@@ -71,10 +71,10 @@ impl Confusion {
                 parts.insert(part.clone());
             }
             let cell = (result.truth.clone(), answered);
-            confusion.cells.entry(cell).or_default().push(place);
+            confusion.cells.entry(cell).or_default().push(index);
         }
-        let place_of = |part: &str| order.iter().position(|name| name == part);
-        let rank = |part: &str| place_of(part).unwrap_or(order.len());
+        let index_of = |part: &str| order.iter().position(|name| name == part);
+        let rank = |part: &str| index_of(part).unwrap_or(order.len());
         confusion.rows = truths.into_iter().collect();
         // The sort is stable: names stay in order within a rank, and parts come before the other labels.
         confusion
@@ -146,9 +146,9 @@ mod tests {
             .chain([CaseAnswer::NotAccepted])
             .collect();
         assert_eq!(confusion.columns, columns);
-        let mut places: Vec<usize> = confusion.cells.values().flatten().copied().collect();
-        places.sort_unstable();
-        assert_eq!(places, [0, 1, 2, 3, 4]);
+        let mut indices: Vec<usize> = confusion.cells.values().flatten().copied().collect();
+        indices.sort_unstable();
+        assert_eq!(indices, [0, 1, 2, 3, 4]);
         let cell = (Truth::NotEnrolled, CaseAnswer::Part("trunk".into()));
         assert_eq!(confusion.cells[&cell], [0]);
     }

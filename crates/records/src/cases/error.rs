@@ -7,10 +7,11 @@ use files::{FileError, advice_on, words_of};
 use geometry::error::Advice;
 
 /// Why a case or a folder of cases cannot be used.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Advice)]
 pub enum CaseError {
     /// The folder cannot be read.
     #[error("{}: cannot read the kept cases: {}", path.display(), words_of(source))]
+    #[advice = "Ask for access to this folder, or choose another"]
     Unreadable {
         /// The folder of cases.
         path: PathBuf,
@@ -19,6 +20,7 @@ pub enum CaseError {
     },
     /// The folder cannot be written to; its cases are unchanged.
     #[error("{}: cannot write to the kept cases: {}", path.display(), words_of(source))]
+    #[advice("{}, or choose another folder of cases", advice_on(source))]
     Unwritable {
         /// The folder of cases.
         path: PathBuf,
@@ -27,6 +29,7 @@ pub enum CaseError {
     },
     /// A case differs from what was written.
     #[error("the kept case {name} is damaged and was set aside: {what}")]
+    #[advice = "Copy it again from where it came from, or delete its folder"]
     Damaged {
         /// Name of the case's folder.
         name: String,
@@ -35,9 +38,11 @@ pub enum CaseError {
     },
     /// A newer version of the program wrote a case, or the system has no folder for the cases.
     #[error(transparent)]
+    #[advice(transparent)]
     File(#[from] FileError),
     /// There is no case of that name.
     #[error("{}: no kept case named {name}", path.display())]
+    #[advice = "Check whether the folder was moved or renamed"]
     NoSuchCase {
         /// The folder of cases.
         path: PathBuf,
@@ -46,22 +51,6 @@ pub enum CaseError {
     },
     /// The history to be exported as cases cannot be read.
     #[error(transparent)]
+    #[advice(transparent)]
     History(#[from] HistoryError),
-}
-
-impl Advice for CaseError {
-    fn advice(&self) -> String {
-        match self {
-            Self::Unreadable { .. } => "Ask for access to this folder, or choose another".into(),
-            Self::Unwritable { source, .. } => {
-                format!("{}, or choose another folder of cases", advice_on(source))
-            }
-            Self::Damaged { .. } => {
-                "Copy it again from where it came from, or delete its folder".into()
-            }
-            Self::File(error) => error.advice(),
-            Self::NoSuchCase { .. } => "Check whether the folder was moved or renamed".into(),
-            Self::History(error) => error.advice(),
-        }
-    }
 }

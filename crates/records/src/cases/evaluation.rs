@@ -84,12 +84,12 @@ impl<'a> CaseJudge<'a> {
     fn pose_error(&self, case: &KeptCase, inspection: &Inspection) -> Option<PoseDelta> {
         let truth = case.meta.about.pose.as_ref()?;
         let found = inspection.found_pose()?;
-        let place = inspection.ranking.entries.first()?.reference;
-        let is_of_it = |crc32: &String| self.clouds.get(place) == Some(crc32);
+        let reference = inspection.ranking.entries.first()?.reference;
+        let is_of_it = |crc32: &String| self.clouds.get(reference) == Some(crc32);
         if !truth.cloud_crc32.as_ref().is_none_or(is_of_it) {
             return None;
         }
-        let middle = self.library.references.get(place)?.middle()?;
+        let middle = self.library.references.get(reference)?.middle()?;
         Some(pose_error(
             &found.camera_from_part(),
             &truth.camera_from_part,
@@ -155,8 +155,8 @@ pub fn evaluate(
         cases,
         mut problems,
     } = list;
-    let inspect = |place: usize| {
-        let case = &cases[place];
+    let inspect = |index: usize| {
+        let case = &cases[index];
         let judged = folder.read_scene(case).map(|scene| {
             let judged = judge.judge(case, &scene, &Unwatched);
             judged.expect("nobody is there to cancel")

@@ -101,7 +101,7 @@ pub enum CaseOutcome {
 
 impl CaseOutcome {
     /// Compares an answer with the true label.
-    pub fn of(truth: &Truth, answered: &CaseAnswer) -> Self {
+    pub fn new(truth: &Truth, answered: &CaseAnswer) -> Self {
         match (truth, answered) {
             (Truth::Part(is), CaseAnswer::Part(found)) if is == found => Self::Right,
             (_, CaseAnswer::Part(_)) => Self::WrongAccepted,
@@ -143,7 +143,7 @@ pub struct CaseResult {
 impl CaseResult {
     /// Compares the answer with the true label.
     pub fn judgement(&self) -> CaseOutcome {
-        CaseOutcome::of(&self.truth, &self.found.answered())
+        CaseOutcome::new(&self.truth, &self.found.answered())
     }
 
     /// Returns true if the best guess, accepted or not, is right; `None` without a guess.
@@ -174,7 +174,7 @@ mod tests {
             (Truth::NotEnrolled, &refused, CaseOutcome::Right),
             (Truth::Nothing, &refused, CaseOutcome::Right),
         ] {
-            assert_eq!(CaseOutcome::of(&truth, answered), expected, "{truth:?}");
+            assert_eq!(CaseOutcome::new(&truth, answered), expected, "{truth:?}");
         }
         let guess = FoundVerdict {
             part: Some("door".into()),

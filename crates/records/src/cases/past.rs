@@ -20,7 +20,7 @@ pub enum TruthFrom {
 }
 
 impl TruthFrom {
-    fn of(self, record: &Record) -> Option<Truth> {
+    fn truth_of(self, record: &Record) -> Option<Truth> {
         let summary = &record.summary;
         let accepted = summary.part.as_ref();
         let accepted = accepted
@@ -86,7 +86,7 @@ impl<'a> PastCases<'a> {
 
     /// Writes an inspection as a case if it has a true label and one kept frame.
     pub fn take(&mut self, record: &Record) -> Result<(), CaseError> {
-        let Some(truth) = self.truth.of(record) else {
+        let Some(truth) = self.truth.truth_of(record) else {
             self.num_without_truth += 1;
             return Ok(());
         };
@@ -133,10 +133,10 @@ impl<'a> PastCases<'a> {
                 && frame.is_some_and(|of| (of.bytes, of.crc32) == (scene.bytes, scene.crc32))
         };
         let before = || self.before.iter();
-        let place = before()
+        let index = before()
             .position(is_export)
             .or_else(|| before().position(is_same_scene))?;
-        Some(self.before.remove(place))
+        Some(self.before.remove(index))
     }
 
     /// Gives a case the true label of its inspection. Without one the truth of the case stays: a person may have entered it

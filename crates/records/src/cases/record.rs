@@ -216,13 +216,13 @@ impl<'a> EvaluationRecord<'a> {
             tally: *tally,
         });
         let cells = confusion.cells.iter();
-        let cells = cells.map(|((truth, answered), places)| CellRecord {
+        let cells = cells.map(|((truth, answered), results)| CellRecord {
             truth,
             accepted_as: match answered {
                 CaseAnswer::Part(part) => Some(part),
                 CaseAnswer::NotAccepted => None,
             },
-            num: places.len(),
+            num: results.len(),
         });
         Self {
             schema: RECORD_SCHEMA,
@@ -250,30 +250,21 @@ pub struct EarlierRun {
 }
 
 /// Why a file cannot be read as an earlier run.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Advice)]
 pub enum RecordError {
     /// The file cannot be read.
     #[error(transparent)]
+    #[advice(transparent)]
     File(#[from] FileError),
     /// The file is not an evaluation.
     #[error("{}: not an evaluation: {what}", path.display())]
+    #[advice = "Choose a file that partsight evaluate DIR --json FILE wrote"]
     NotARecord {
         /// The file.
         path: PathBuf,
         /// The error of the JSON parser.
         what: String,
     },
-}
-
-impl Advice for RecordError {
-    fn advice(&self) -> String {
-        match self {
-            Self::File(error) => error.advice(),
-            Self::NotARecord { .. } => {
-                "Choose a file that partsight evaluate DIR --json FILE wrote".into()
-            }
-        }
-    }
 }
 
 impl EarlierRun {

@@ -35,8 +35,8 @@ impl TradeOff {
     /// Counts these results at every threshold.
     pub fn of<'a>(results: impl IntoIterator<Item = &'a CaseResult>) -> Self {
         let guesses: Vec<BestMatch> = results.into_iter().map(BestMatch::of).collect();
-        let step = |place: usize| {
-            let threshold = place as f64 / NUM_STEPS as f64;
+        let step = |index: usize| {
+            let threshold = index as f64 / NUM_STEPS as f64;
             let is_accepted = |guess: &&BestMatch| guess.score.is_some_and(|s| s >= threshold);
             let accepted = || guesses.iter().filter(is_accepted);
             let num_right = accepted().filter(|guess| guess.is_right).count();

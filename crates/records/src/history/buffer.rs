@@ -67,6 +67,8 @@ struct Inner {
     /// After a failure, when to try again.
     next_try: Option<Instant>,
     num_unswept: u32,
+    /// True while frames that the rule keeps cannot be written.
+    loses_frames: bool,
 }
 
 impl HistoryBuffer {
@@ -449,7 +451,7 @@ impl HistoryBuffer {
             let Some(history) = &mut inner.history else {
                 return Ok(None);
             };
-            match history.add(entry, &retention) {
+            match history.write(entry, &retention) {
                 // Reopening checks the file, and sets it aside if the check finds damage too.
                 Err(HistoryError::Damaged { .. }) if !is_reopened => {
                     inner.history = None;
@@ -460,7 +462,24 @@ impl HistoryBuffer {
                     if inner.num_unswept >= SWEEP_EVERY {
                         self.sweep(inner);
                     }
-                    return written.map(Some);
+                    let (number, frame) = written?;
+                    self.tell_of_frame(inner, frame);
+                    return Ok(Some(number));
+                }
+            }
+        }
+    }
+
+    /// Reports a frame that could not be kept if it is the first since one was.
+    fn tell_of_frame(&self, inner: &mut Inner, frame: Result<bool, HistoryError>) {
+        match frame {
+            Ok(is_kept) => inner.loses_frames &= !is_kept,
+            Err(error) => {
+                if !std::mem::replace(&mut inner.loses_frames, true) {
+                    self.tell(HistoryEvent::FramesNotKept {
+                        what: error.to_string(),
+                        advice: error.advice(),
+                    });
                 }
             }
         }

@@ -9,7 +9,10 @@ use image::{
 use jiff::Timestamp;
 
 use super::{
-    frames::FrameRecord, hung::HungId, scene_title::SceneTitle, traceability::Traceability,
+    frames::{FrameLoss, FrameRecord},
+    hung::HungId,
+    scene_title::SceneTitle,
+    traceability::Traceability,
 };
 use geometry::{
     rigid::{PoseDelta, RigidTransform, row_major},
@@ -18,8 +21,8 @@ use geometry::{
 use inspection::{
     library::Truth,
     pipeline::{
-        Expected, ExpectedPart, Inspection, NamedRecipe, Recipe, RecipeLabel, Refusal, RefusalKind,
-        Verdict,
+        AcceptParams, Expected, ExpectedPart, Identification, Inspection, NamedRecipe, Recipe,
+        RecipeLabel, Refusal, RefusalKind, Verdict,
     },
 };
 use stages::{pose::PoseEstimate, scan::Shot, scene::SceneCloud};
@@ -129,9 +132,14 @@ pub struct Summary {
 }
 
 impl Summary {
+    /// Says what hung there. The limits of its recipe are not in the row: those of the built-in recipe decide.
+    pub fn identification(&self) -> Identification {
+        Identification::new(self.reason.as_ref(), self.score, &AcceptParams::default())
+    }
+
     /// Returns the title of the part of which it is the mirror image, if it is one.
     pub fn mirror_of(&self) -> Option<&str> {
-        let is_mirrored = self.reason.as_ref().is_some_and(RefusalKind::is_mirrored);
+        let is_mirrored = self.identification() == Identification::MirrorImage;
         is_mirrored.then_some(self.title.as_str())
     }
 
@@ -222,6 +230,8 @@ pub struct InspectionDetail {
     pub origin: Option<String>,
     /// The kept frame, if any.
     pub frame: Option<FrameRecord>,
+    /// Why it is not kept although the rule keeps it.
+    pub frame_loss: Option<FrameLoss>,
 }
 
 /// What the line of an inspection says about letting a robot act on the pose.
@@ -355,6 +365,7 @@ impl NewEntry {
             thumbnail: Vec::new(),
             origin: about.origin,
             frame: None,
+            frame_loss: None,
         };
         Self {
             record: Record { summary, detail },
@@ -371,10 +382,12 @@ impl NewEntry {
         Self { shots, ..self }
     }
 
-    /// Drops the scenes from which the frames would be written.
-    pub(super) fn drop_frames(&mut self) {
-        self.scene = None;
+    /// Drops the scenes from which the frames would be written, and notes why.
+    pub(super) fn drop_frames(&mut self, loss: FrameLoss) {
         self.shots = Vec::new();
+        if self.scene.take().is_some() {
+            self.record.detail.frame_loss = Some(loss);
+        }
     }
 
     /// True if it stands for its part in place of `head`, which was written before: a part that was refused and is
@@ -462,6 +475,11 @@ impl InspectionDetail {
     /// Returns the place of the rack at which the part hung; `None` if it hung at none, or there was no rack.
     pub fn place(&self) -> Option<String> {
         text_of(&self.line, "place")
+    }
+
+    /// Returns the number of [that place](Self::place) in the rack, from 1.
+    pub fn place_number(&self) -> Option<u32> {
+        self.recipe.as_ref()?.rack.number_of(&self.place()?)
     }
 
     /// Returns how far off the pose may be; `None` if the line has no bounds or the pose is unconstrained.

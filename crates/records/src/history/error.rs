@@ -7,15 +7,16 @@ use std::{
 
 use rusqlite::ErrorCode;
 
-use super::frames::FrameError;
+use super::frames::{FrameError, FrameLoss};
 use files::{FileError, advice_on, words_of};
 use geometry::error::Advice;
 
 /// Why the history cannot be read or written.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Advice)]
 pub enum HistoryError {
     /// The folder cannot be created or used.
     #[error("{}: the history cannot be kept there: {}", path.display(), words_of(source))]
+    #[advice(advice_on(source))]
     Unwritable {
         /// The folder.
         path: PathBuf,
@@ -24,24 +25,28 @@ pub enum HistoryError {
     },
     /// The disk is full.
     #[error("{}: the history cannot be written: the disk is full", path.display())]
+    #[advice = "Make room on the disk"]
     DiskFull {
         /// The file.
         path: PathBuf,
     },
     /// The file, its folder or its disk is write-protected.
     #[error("{}: the history is write-protected", path.display())]
+    #[advice = "Make its folder writable, or ask for access to this one"]
     ReadOnly {
         /// The file.
         path: PathBuf,
     },
     /// Another program kept the file locked for too long.
     #[error("{}: another program is busy with the history", path.display())]
+    #[advice = "Close other windows of Partsight, or wait until they are done"]
     Busy {
         /// The file.
         path: PathBuf,
     },
     /// The file is damaged.
     #[error("{}: the history is damaged: {what}", path.display())]
+    #[advice = "Close every other window of Partsight and start it again: the file is then set aside and a new one started"]
     Damaged {
         /// The file.
         path: PathBuf,
@@ -53,6 +58,7 @@ pub enum HistoryError {
         "{}: the history was written by a newer version of Partsight (format {found}, this one knows {known})",
         path.display()
     )]
+    #[advice = "Update Partsight on this computer, or keep the history in another folder (--history)"]
     Newer {
         /// The file.
         path: PathBuf,
@@ -63,6 +69,7 @@ pub enum HistoryError {
     },
     /// The file is not a history; it was left untouched.
     #[error("{}: this is the database of another program, not a history of Partsight", path.display())]
+    #[advice = "Keep the history in another folder (--history), or move that file to where it belongs"]
     Foreign {
         /// The file.
         path: PathBuf,
@@ -72,18 +79,25 @@ pub enum HistoryError {
         "{}: the history was moved, deleted or replaced while it was in use; new inspections go to the file that is there now",
         path.display()
     )]
+    #[advice = "If earlier inspections are missing, stop every Partsight that uses this history and put the former file back; move or delete a history only while none is running"]
     Replaced {
         /// The file.
         path: PathBuf,
     },
     /// There is no history yet.
     #[error("{}: there is no history yet", path.display())]
+    #[advice = "Inspect something first, or name the folder with --history"]
     NotFound {
         /// The file that was expected.
         path: PathBuf,
     },
     /// Any other error of the database.
     #[error("{}: the history cannot be used: {source}", path.display())]
+    #[advice(if is_disk_error(source) {
+        "Make room on the disk, check whether it still works, and raise a limit on the size of files (`ulimit -f`), if there is one; the history stays as it is"
+    } else {
+        "Try again; if it happens again, move the file away: a new one is then started"
+    })]
     Database {
         /// The file.
         path: PathBuf,
@@ -92,24 +106,36 @@ pub enum HistoryError {
     },
     /// A frame cannot be written or read.
     #[error(transparent)]
+    #[advice(transparent)]
     Frame(#[from] FrameError),
+    /// A frame that the rule keeps cannot be written; its inspection is.
+    #[error("frames are no longer kept: {source}")]
+    #[advice(frames_not_kept(source))]
+    FramesNotKept {
+        /// The underlying error.
+        source: FrameError,
+    },
     /// The table cannot be written.
     #[error(transparent)]
+    #[advice(transparent)]
     Table(#[from] FileError),
     /// There is no inspection with this number.
     #[error("there is no inspection {number} in the history")]
+    #[advice = "Use one of the numbers that `partsight history list` shows"]
     NoSuchInspection {
         /// The number asked for.
         number: i64,
     },
     /// There is no run of servoing with this number.
     #[error("there is no servo run {number} in the history")]
+    #[advice = "Use one of the numbers that `partsight history runs` shows"]
     NoSuchServoRun {
         /// The number asked for.
         number: i64,
     },
     /// There is no inspection of this part.
     #[error("{}: the history has no inspection of this part, so its true label is not set there", path.display())]
+    #[advice = "If the history was moved or replaced, put the former file back and set the true label in History"]
     NoSuchPart {
         /// The file.
         path: PathBuf,
@@ -161,47 +187,14 @@ fn is_disk_error(source: &rusqlite::Error) -> bool {
     source.sqlite_error_code() == Some(ErrorCode::SystemIoFailure)
 }
 
-impl Advice for HistoryError {
-    fn advice(&self) -> String {
-        match self {
-            Self::Unwritable { source, .. } => advice_on(source).into(),
-            Self::DiskFull { .. } => "Make room on the disk".into(),
-            Self::ReadOnly { .. } => {
-                "Make its folder writable, or ask for access to this one".into()
-            }
-            Self::Busy { .. } => "Close other windows of Partsight, or wait until they are done".into(),
-            Self::Damaged { .. } => {
-                "Close every other window of Partsight and start it again: the file is then set aside and a new one started".into()
-            }
-            Self::Newer { .. } => {
-                "Update Partsight on this computer, or keep the history in another folder (--history)".into()
-            }
-            Self::Foreign { .. } => {
-                "Keep the history in another folder (--history), or move that file to where it belongs".into()
-            }
-            Self::Replaced { .. } => {
-                "If earlier inspections are missing, stop every Partsight that uses this history and put the former file back; move or delete a history only while none is running".into()
-            }
-            Self::NotFound { .. } => {
-                "Inspect something first, or name the folder with --history".into()
-            }
-            Self::Database { source, .. } if is_disk_error(source) => {
-                "Make room on the disk, check whether it still works, and raise a limit on the size of files (`ulimit -f`), if there is one; the history stays as it is".into()
-            }
-            Self::Database { .. } => {
-                "Try again; if it happens again, move the file away: a new one is then started".into()
-            }
-            Self::Frame(error) => error.advice(),
-            Self::Table(error) => error.advice(),
-            Self::NoSuchInspection { .. } => {
-                "Use one of the numbers that `partsight history list` shows".into()
-            }
-            Self::NoSuchServoRun { .. } => {
-                "Use one of the numbers that `partsight history runs` shows".into()
-            }
-            Self::NoSuchPart { .. } => {
-                "If the history was moved or replaced, put the former file back and set the true label in History".into()
-            }
+fn frames_not_kept(source: &FrameError) -> String {
+    match source.loss() {
+        FrameLoss::DiskFull => {
+            "Make room on the disk, or keep fewer frames (`partsight history keep`; in the window, Frames… in History): until then, inspections are written without them".into()
         }
+        FrameLoss::NotWritable | FrameLoss::SlowDisk => format!(
+            "{}; until then, inspections are written without frames",
+            source.advice()
+        ),
     }
 }

@@ -22,6 +22,10 @@ pub struct Filter {
     pub source: Option<String>,
     /// Only in a rack of this name.
     pub rack: Option<String>,
+    /// Only of this order.
+    pub order: Option<String>,
+    /// Only with this serial number.
+    pub serial: Option<String>,
     /// Includes the re-inspections; otherwise the list has one row per part.
     pub with_below: bool,
     /// Words that must each occur in the title, in the name of part, scene, source or rack, in the remark, the true label or
@@ -80,6 +84,13 @@ impl Filter {
         if let Some(rack) = &self.rack {
             parts.push("rack = ?".into());
             values.push(rack.clone().into());
+        }
+        for (column, wanted) in [("job_order", &self.order), ("serial", &self.serial)] {
+            if let Some(wanted) = wanted {
+                // The index has the search text alone, which leaves few rows to read.
+                parts.push(format!("instr(search, ?) AND {column} = ?"));
+                values.extend([wanted.to_lowercase(), wanted.clone()].map(Value::from));
+            }
         }
         if !self.with_below {
             parts.push("parent IS NULL".into());
@@ -147,6 +158,8 @@ impl Filter {
                 .as_ref()
                 .is_none_or(|source| row.source == *source)
             && (self.rack.is_none() || self.rack == row.rack)
+            && (self.order.as_ref()).is_none_or(|order| row.trace.order == *order)
+            && (self.serial.as_ref()).is_none_or(|serial| row.trace.serial == *serial)
             && self.has_words_of(&search)
     }
 }

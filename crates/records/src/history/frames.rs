@@ -32,6 +32,7 @@ use geometry::{
     error::Advice,
 };
 use stages::scene::{EmptyCell, PictureEdge, SceneCloud, full_scene, reduced_scene};
+use texts::{Described, Message};
 
 /// Database record of a kept frame.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -70,6 +71,36 @@ pub struct FrameRecord {
     pub shots: Vec<ShotRecord>,
 }
 
+/// Why the frame of an inspection is not kept although the rule keeps it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum FrameLoss {
+    /// The disk was full.
+    DiskFull,
+    /// The frame, or the whole history for a while, could not be written.
+    NotWritable,
+    /// The disk was too slow.
+    SlowDisk,
+}
+
+impl Described for FrameLoss {
+    fn message(&self) -> Message {
+        Message::new(match self {
+            Self::DiskFull => "frame-loss-disk-full",
+            Self::NotWritable => "frame-loss-not-writable",
+            Self::SlowDisk => "frame-loss-slow-disk",
+        })
+    }
+}
+
+texts::display!(FrameLoss);
+
+/// What the database has in place of the record of a frame that was lost.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+pub(super) struct LostFrame {
+    pub(super) lost: FrameLoss,
+}
+
 /// Depth units of common cameras, metres.
 const UNITS: [f64; 5] = [0.001, 0.0002, 0.0001, 0.00025, 0.000_125];
 
@@ -77,13 +108,15 @@ const UNITS: [f64; 5] = [0.001, 0.0002, 0.0001, 0.00025, 0.000_125];
 static COUNT: AtomicU32 = AtomicU32::new(0);
 
 /// Why a frame cannot be written or read.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Advice)]
 pub enum FrameError {
     /// A file cannot be written or read.
     #[error(transparent)]
+    #[advice(transparent)]
     File(#[from] FileError),
     /// The folder cannot be written to.
     #[error("{}: the frame cannot be written: {}", path.display(), words_of(source))]
+    #[advice(advice_on(source))]
     Unwritable {
         /// The folder or file.
         path: PathBuf,
@@ -92,6 +125,7 @@ pub enum FrameError {
     },
     /// The kept frame is damaged.
     #[error("{}: the kept frame is damaged: {what}", path.display())]
+    #[advice = "Inspect the part again: this frame cannot be used"]
     Damaged {
         /// The file.
         path: PathBuf,
@@ -101,10 +135,22 @@ pub enum FrameError {
 }
 
 impl FrameError {
-    fn io(path: &Path, source: io::Error) -> Self {
+    pub(super) fn io(path: &Path, source: io::Error) -> Self {
         Self::Unwritable {
             path: path.to_owned(),
             source,
+        }
+    }
+
+    /// Returns what the row says of a frame that could not be written.
+    pub(super) fn loss(&self) -> FrameLoss {
+        let (Self::File(FileError::Write { source, .. }) | Self::Unwritable { source, .. }) = self
+        else {
+            return FrameLoss::NotWritable;
+        };
+        match source.kind() {
+            io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => FrameLoss::DiskFull,
+            _ => FrameLoss::NotWritable,
         }
     }
 }
@@ -116,16 +162,6 @@ impl From<FrameError> for io::Error {
             FrameError::File(FileError::Write { source, .. })
             | FrameError::Unwritable { source, .. } => source,
             error => Self::other(error),
-        }
-    }
-}
-
-impl Advice for FrameError {
-    fn advice(&self) -> String {
-        match self {
-            Self::File(error) => error.advice(),
-            Self::Unwritable { source, .. } => advice_on(source).into(),
-            Self::Damaged { .. } => "Inspect the part again: this frame cannot be used".into(),
         }
     }
 }
@@ -158,7 +194,7 @@ pub fn write_as(folder: &Path, stem: &str, scene: &SceneCloud) -> Result<FrameRe
     let mut content = Vec::new();
     let packed = match &depth {
         Some(frame) => {
-            write_its_camera(&path, &DepthCamera::of(frame))?;
+            write_its_camera(&path, &DepthCamera::from_frame(frame))?;
             write_depths(&mut content, frame)
         }
         None => write_pcd(&mut content, cloud),
@@ -412,7 +448,7 @@ mod tests {
     fn a_depth_image_comes_back_to_the_bit_and_other_programs_can_open_it() {
         let folder = tempfile::tempdir().expect("a folder");
         let mut scene = captured();
-        scene.empty_cell = Some(Arc::new(EmptyCell::of(&scene).expect("a picture")));
+        scene.empty_cell = Some(Arc::new(EmptyCell::from_scene(&scene).expect("a picture")));
         let at = Timestamp::UNIX_EPOCH;
         let record = write(folder.path(), &scene, at).expect("written");
         let record = record.expect("kept");
@@ -426,7 +462,7 @@ mod tests {
     fn a_damaged_empty_cell_is_written_again_with_the_next_frame() {
         let folder = tempfile::tempdir().expect("a folder");
         let mut scene = captured();
-        scene.empty_cell = Some(Arc::new(EmptyCell::of(&scene).expect("a picture")));
+        scene.empty_cell = Some(Arc::new(EmptyCell::from_scene(&scene).expect("a picture")));
         let write = || write(folder.path(), &scene, Timestamp::UNIX_EPOCH).expect("written");
         let first = write().expect("kept");
         let cell = folder

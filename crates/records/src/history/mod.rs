@@ -55,7 +55,7 @@ pub use self::{
     event::HistoryEvent,
     filter::{Filter, VerdictFilter},
     frames::{
-        FrameError, FrameRecord, read as read_frame, read_by as read_frame_by,
+        FrameError, FrameLoss, FrameRecord, read as read_frame, read_by as read_frame_by,
         write_as as write_frame,
     },
     hung::{HungId, HungRows},

@@ -7,7 +7,7 @@ use rusqlite::{Connection, OptionalExtension as _, Row, TransactionBehavior, par
 
 use super::{
     entry::{InspectionDetail, NewEntry, Record, RobotMarks, StoredVerdict, Summary, png_of},
-    frames::FrameRecord,
+    frames::{FrameLoss, FrameRecord, LostFrame},
     hung::HungId,
     scene_title::SceneTitle,
     traceability::{TraceChange, Traceability},
@@ -30,11 +30,12 @@ pub(super) fn head_of(file: &Connection, hung: &HungId) -> rusqlite::Result<Opti
     file.query_row(&asked, [&hung.0], summary_of).optional()
 }
 
-/// Writes both rows of an inspection, and returns its number.
+/// Writes both rows of an inspection, with its kept frame or why there is none, and returns its number.
 pub(super) fn insert(
     file: &Connection,
     entry: &NewEntry,
     frame: Option<&FrameRecord>,
+    lost: Option<FrameLoss>,
 ) -> rusqlite::Result<i64> {
     let Record { summary, detail } = &entry.record;
     let head = head_of(file, &summary.hung)?;
@@ -124,7 +125,10 @@ pub(super) fn insert(
             detail.line,
             entry.picture.as_ref().map(png_of),
             detail.origin,
-            frame.and_then(json),
+            match (frame, lost) {
+                (Some(frame), _) => json(frame),
+                (None, lost) => lost.and_then(|lost| json(&LostFrame { lost })),
+            },
         ],
     )?;
     Ok(number)
@@ -275,7 +279,12 @@ pub(super) fn record_of(row: &Row<'_>) -> rusqlite::Result<Record> {
             line: row.get("line")?,
             thumbnail: thumbnail.unwrap_or_default(),
             origin: row.get("origin")?,
-            frame: frame.and_then(|frame| serde_json::from_str(&frame).ok()),
+            frame: frame
+                .as_deref()
+                .and_then(|frame| serde_json::from_str(frame).ok()),
+            frame_loss: frame
+                .and_then(|frame| serde_json::from_str::<LostFrame>(&frame).ok())
+                .map(|LostFrame { lost }| lost),
         },
     })
 }

@@ -60,7 +60,7 @@ const TABLES: &str = "
         line TEXT NOT NULL,                         -- as inspect --json writes it
         thumbnail BLOB,                             -- PNG
         origin TEXT,                                -- how the window can have the scene again
-        frame TEXT                                  -- FrameRecord as JSON
+        frame TEXT                                  -- FrameRecord as JSON; LostFrame if it could not be written
     );
     CREATE TABLE servo_run (
         number INTEGER PRIMARY KEY AUTOINCREMENT,   -- never used again

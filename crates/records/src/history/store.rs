@@ -1,6 +1,9 @@
 //! Writing and querying inspections.
 
-use std::path::{Path, PathBuf};
+use std::{
+    io,
+    path::{Path, PathBuf},
+};
 
 use rusqlite::{
     Connection, OptionalExtension as _, Transaction, TransactionBehavior, params, params_from_iter,
@@ -11,7 +14,7 @@ use super::{
     entry::{NewEntry, Record, StoredVerdict, Summary},
     error::HistoryError,
     filter::Filter,
-    frames::{self, FrameRecord},
+    frames::{self, FrameError, FrameLoss, FrameRecord},
     hung::HungId,
     open::{FILE, FRAMES, file_identity, with_ending},
     retention::{KeepFrames, Retention},
@@ -78,13 +81,58 @@ impl History {
         HistoryError::of(&self.path, source)
     }
 
-    /// Writes an inspection, and its frame if the rule keeps it, completely or not at all. Returns its number.
+    /// Writes an inspection completely or not at all, and its frame if the rule keeps it and it can be written: otherwise the
+    /// row says why it is not kept. Returns its number.
+    pub fn add(&mut self, entry: &NewEntry, retention: &Retention) -> Result<i64, HistoryError> {
+        let (number, _) = self.write(entry, retention)?;
+        Ok(number)
+    }
+
+    /// As [`add`](Self::add); also returns whether the frame is kept, or why it could not be written.
     ///
     /// The frame is written before the row: a kill in between leaves a stray, which the next opening removes.
-    pub fn add(&mut self, entry: &NewEntry, retention: &Retention) -> Result<i64, HistoryError> {
+    pub(super) fn write(
+        &mut self,
+        entry: &NewEntry,
+        retention: &Retention,
+    ) -> Result<(i64, Result<bool, HistoryError>), HistoryError> {
+        if retention.keep == KeepFrames::None {
+            return Ok((self.write_row(entry, None, None)?, Ok(false)));
+        }
+        let (frame, mut error) = match self.write_frame(entry, retention) {
+            Ok(frame) => (frame, None),
+            Err(error) => (None, Some(error)),
+        };
+        let is_kept = frame.is_some();
+        let lost = |error: Option<&FrameError>| {
+            let known = entry.record.detail.frame_loss;
+            error.map(FrameError::loss).or(known)
+        };
+        let number = match self.write_row(entry, frame.as_ref(), lost(error.as_ref())) {
+            // The frame may have taken the room of its row, which is worth more.
+            Err(HistoryError::DiskFull { .. }) if is_kept => {
+                remove_frame(&self.frames, frame.as_ref());
+                let full = FrameError::io(&self.frames, io::ErrorKind::StorageFull.into());
+                error = Some(full);
+                self.write_row(entry, None, lost(error.as_ref()))?
+            }
+            written => written?,
+        };
+        let frame = match error {
+            Some(source) => Err(HistoryError::FramesNotKept { source }),
+            None => Ok(is_kept),
+        };
+        Ok((number, frame))
+    }
+
+    /// Writes the frame of an inspection, or those of its scan; returns `None` if there is none.
+    fn write_frame(
+        &self,
+        entry: &NewEntry,
+        retention: &Retention,
+    ) -> Result<Option<FrameRecord>, FrameError> {
         let summary = &entry.record.summary;
-        let scene = entry.scene.as_ref();
-        let frame = match scene.filter(|_| retention.keep != KeepFrames::None) {
+        let frame = match &entry.scene {
             Some(scene) if entry.shots.is_empty() => {
                 frames::write(&self.frames, scene, summary.at)?
             }
@@ -93,18 +141,25 @@ impl History {
         };
         let is_only_recent =
             retention.keep == KeepFrames::NotAccepted && summary.verdict == StoredVerdict::Accepted;
-        let frame = frame.map(|frame| FrameRecord {
+        Ok(frame.map(|frame| FrameRecord {
             is_only_recent,
             ..frame
-        });
-        let written = match begin(&mut self.file, entry, frame.as_ref()) {
+        }))
+    }
+
+    /// Writes the rows of an inspection, and returns its number.
+    fn write_row(
+        &mut self,
+        entry: &NewEntry,
+        frame: Option<&FrameRecord>,
+        lost: Option<FrameLoss>,
+    ) -> Result<i64, HistoryError> {
+        let written = match begin(&mut self.file, entry, frame, lost) {
             // If the commit fails, the row may still be in the log and reappear with the next opening; otherwise that
             // opening removes the frame.
             Ok((file, number)) => file.commit().map(|()| number),
             Err(error) => {
-                for path in frame.iter().flat_map(|frame| frame.paths(&self.frames)) {
-                    let _ = frames::remove(&path);
-                }
+                remove_frame(&self.frames, frame);
                 Err(error)
             }
         };
@@ -121,7 +176,7 @@ impl History {
                 .file
                 .transaction_with_behavior(TransactionBehavior::Immediate)?;
             for entry in entries {
-                insert(&file, &entry, None)?;
+                insert(&file, &entry, None, None)?;
             }
             file.commit()
         };
@@ -349,10 +404,18 @@ fn begin<'a>(
     file: &'a mut Connection,
     entry: &NewEntry,
     frame: Option<&FrameRecord>,
+    lost: Option<FrameLoss>,
 ) -> rusqlite::Result<(Transaction<'a>, i64)> {
     let begun = file.transaction_with_behavior(TransactionBehavior::Immediate)?;
-    let number = insert(&begun, entry, frame)?;
+    let number = insert(&begun, entry, frame, lost)?;
     Ok((begun, number))
+}
+
+/// Removes the files of a frame that no row refers to; what stays goes with the next opening.
+fn remove_frame(folder: &Path, frame: Option<&FrameRecord>) {
+    for path in frame.iter().flat_map(|frame| frame.paths(folder)) {
+        let _ = frames::remove(&path);
+    }
 }
 
 /// Returns the query for the matching rows, newest first; the index alone answers it.

@@ -17,7 +17,7 @@ use texts::Language;
 const HEAD: &str = "number,time,scene,source,simulated,verdict,part,nearest,score,margin,reason,total_ms,\
     label,remark,recipe,library,program,parent,reinspections,\
     m00,m01,m02,m03,m10,m11,m12,m13,m20,m21,m22,m23,m30,m31,m32,m33,recipe_name,recipe_changed,\
-    serial,order,operator,reason_kind,robot_doubts,motion_checked,rack,expected,missing";
+    serial,order,operator,reason_kind,robot_doubts,motion_checked,rack,expected,missing,place,place_number";
 
 /// Writes the inspections that `each` passes on into this file, and returns their number. If one cannot be read, the
 /// file stays as it was.
@@ -106,9 +106,12 @@ fn write_row(writer: &mut dyn Write, record: &Record, columns: &str) -> io::Resu
     };
     let expected = cell(detail.expected().parts());
     let missing = cell(&detail.missing().unwrap_or_default());
+    let place = quoted(&detail.place().unwrap_or_default());
+    let place_number = detail.place_number().map(|number| number.to_string());
+    let place_number = place_number.unwrap_or_default();
     writeln!(
         writer,
-        "{},{},{},{},{},{},{},{},{score},{margin},{},{:.3},{},{},{},{},{},{},{}{pose},{recipe},{serial},{order},{operator},{kind},{doubts},{motion_checked},{rack},{expected},{missing}{columns}",
+        "{},{},{},{},{},{},{},{},{score},{margin},{},{:.3},{},{},{},{},{},{},{}{pose},{recipe},{serial},{order},{operator},{kind},{doubts},{motion_checked},{rack},{expected},{missing},{place},{place_number}{columns}",
         summary.number,
         summary.at,
         quoted(&summary.scene.to_string()),

@@ -133,6 +133,11 @@ fn every_filter_lets_through_what_a_plain_look_at_the_rows_does() {
         entry.record.summary.source = ["kinect", "kinect:B"][random.random_range(0..2)].into();
         entry.record.summary.rack =
             [None, Some("A"), Some("Rack Tür")][random.random_range(0..3)].map(str::to_owned);
+        entry.record.summary.trace = Traceability {
+            order: ["", "A 17", "a 17"][random.random_range(0..3)].into(),
+            serial: ["", "TL-1", "TL-17"][random.random_range(0..3)].into(),
+            operator: String::new(),
+        };
         entry.record.summary.remark = ["", "Beule Ö", "dent 50%"][random.random_range(0..3)].into();
         entry.scene = None;
         let number = history.add(&entry, &Retention::default()).expect("written");
@@ -158,6 +163,8 @@ fn every_filter_lets_through_what_a_plain_look_at_the_rows_does() {
             is_simulated: random.random_bool(0.3).then(|| random.random()),
             source: random.random_bool(0.2).then(|| "kinect".to_owned()),
             rack: random.random_bool(0.2).then(|| "A".to_owned()),
+            order: random.random_bool(0.2).then(|| "A 17".to_owned()),
+            serial: random.random_bool(0.2).then(|| "TL-1".to_owned()),
             with_below: random.random(),
             text: [
                 "",
@@ -271,6 +278,13 @@ fn twenty_thousand_rows_are_asked_right_and_from_the_index_alone() {
             NUM / 80,
         ),
     ];
+    let of_order = Filter {
+        order: Some("A 17".into()),
+        ..Filter::default()
+    };
+    let plan = plan_of(&history, listed_query(&of_order));
+    assert!(plan.contains("INDEX listed"), "{plan}");
+    assert!(!plan.contains("TEMP B-TREE"), "{plan}");
     for (filter, num) in filters {
         let page = history.page(&filter, 0, 50).expect("asked");
         assert_eq!(
@@ -393,6 +407,7 @@ fn the_table_has_a_line_for_each_row_and_as_many_fields_as_its_head() {
     assert!(lines.iter().all(|line| num_fields(line) == wanted));
     let kinds = csv_column(&table, "reason_kind");
     assert_eq!(kinds, ["low_score"; 4]);
+    assert_eq!(csv_column(&table, "place_number"), [""; 4]);
     // If reading fails midway, the existing table is kept.
     let failed = write_table(&path, |row| {
         history.each(&Filter::default(), row)?;
@@ -572,35 +587,50 @@ fn a_serial_number_that_comes_later_is_added_to_the_inspections_of_its_part_that
     let serial = |number| history.known(number).expect("there").summary.trace.serial;
     assert_eq!([1, 2, 3].map(serial), ["", "", "TL-1"]);
     assert!(numbers(&history, &found).is_empty());
+    // The order is named later, and another one than at the start; what is not named stays.
+    let named = TraceChange::Set(Traceability {
+        order: "4712".into(),
+        ..Traceability::default()
+    });
+    let hung = &entries[2].record.summary.hung;
+    history.trace_part(hung, &named).expect("written");
+    let last = history.known(3).expect("there").summary.trace;
+    assert_eq!((&*last.serial, &*last.order), ("TL-1", "4712"));
 }
 
 #[cfg(unix)]
 #[test]
-fn whichever_call_fails_an_inspection_is_in_the_history_with_its_frame_or_not_at_all() {
+fn whichever_call_fails_an_inspection_is_in_the_history_with_its_frame_or_says_why_not_or_not_at_all()
+ {
     use files::disk::faults::{Writer, with_advice};
 
     let add = |folder: &std::path::Path, seconds| -> Result<(), HistoryError> {
         let mut history = History::open(folder)?.history;
         let entry = history_entry(seconds, StoredVerdict::Accepted, "fender");
-        history.add(&entry, &ALL).map(|_| ())
+        // A frame that is not kept is reported, too.
+        let (_, frame) = history.write(&entry, &ALL)?;
+        frame.map(|is_kept| assert!(is_kept))
     };
     Writer {
-        test: "history::tests::whichever_call_fails_an_inspection_is_in_the_history_with_its_frame_or_not_at_all",
+        test: "history::tests::whichever_call_fails_an_inspection_is_in_the_history_with_its_frame_or_says_why_not_or_not_at_all",
         prepare: &|folder| add(folder, 1).expect("written"),
         write: &|folder| add(folder, 2).map_err(|error| with_advice(&error)),
         state: &|folder| {
             let history = open_history(folder);
             let page = history.page(&Filter::default(), 0, 10).expect("asked");
+            let mut num_frames = 0;
             for row in &page.rows {
                 let record = history.known(row.number).expect("there");
-                assert!(history.scene(&record).expect("read").is_some());
+                let has_frame = history.scene(&record).expect("read").is_some();
+                assert_ne!(has_frame, record.detail.frame_loss.is_some());
+                num_frames += usize::from(has_frame);
             }
             // Files that no row refers to were removed.
             let frames = std::fs::read_dir(history.frames_folder()).expect("listed");
-            assert_eq!(frames.count(), page.rows.len() + 1);
-            format!("{} inspections", page.num_all)
+            assert_eq!(frames.count(), num_frames + 1);
+            format!("{} inspections, {num_frames} frames", page.num_all)
         },
-        between: &[],
+        between: &["2 inspections, 1 frames"],
     }
     .fails_at_every_call();
 }

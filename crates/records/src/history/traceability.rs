@@ -23,6 +23,8 @@ pub struct Traceability {
 pub enum TraceChange {
     /// Fill these entries where they are empty.
     Fill(Traceability),
+    /// Set these entries, except the empty ones: they are known better now.
+    Set(Traceability),
     /// Clear the serial number, if it is this one: it is of another part.
     ClearSerial(String),
 }
@@ -64,6 +66,7 @@ impl Traceability {
     pub fn changed(mut self, change: &TraceChange) -> Self {
         match change {
             TraceChange::Fill(known) => return self.or(known),
+            TraceChange::Set(known) => return known.clone().or(&self),
             TraceChange::ClearSerial(serial) if self.serial == *serial => self.serial.clear(),
             TraceChange::ClearSerial(_) => {}
         }

@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, VecDeque};
 use super::{
     entry::{NewEntry, Summary},
     error::HistoryError,
+    frames::FrameLoss,
     hung::HungId,
     store::History,
 };
@@ -22,7 +23,7 @@ pub(super) fn wait(waiting: &mut VecDeque<NewEntry>, mut entry: NewEntry, number
     waiting.drain(..num_lost);
     let old = waiting.len().saturating_sub(MAX_SCENES);
     if let Some(entry) = old.checked_sub(1).and_then(|i| waiting.get_mut(i)) {
-        entry.drop_frames();
+        entry.drop_frames(FrameLoss::NotWritable);
     }
     num_lost
 }

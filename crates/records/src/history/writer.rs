@@ -14,6 +14,7 @@ use std::{
 use super::{
     buffer::HistoryBuffer,
     entry::{NewEntry, StoredVerdict},
+    frames::FrameLoss,
     hung::HungId,
     retention::Retention,
     servo_run::ServoRecord,
@@ -93,7 +94,7 @@ impl Writer {
             MAX_SCENES
         };
         if entry.scene.is_some() && counts.scenes.load(Ordering::Relaxed) >= most {
-            entry.drop_frames();
+            entry.drop_frames(FrameLoss::SlowDisk);
             counts.bare.fetch_add(1, Ordering::Relaxed);
         }
         if counts.waiting.load(Ordering::Relaxed) >= MAX_INSPECTIONS {
@@ -211,6 +212,8 @@ mod tests {
         assert_eq!(writer.take_dropped(), [0, 0]);
         let page = keeper.page(&Filter::default(), 0, 100).expect("asked");
         assert_eq!(page.rows.len(), 10);
+        let newest = keeper.row(-10).expect("asked").expect("waits");
+        assert_eq!(newest.detail.frame_loss, Some(FrameLoss::SlowDisk));
     }
 
     #[test]

@@ -151,6 +151,57 @@ fn the_row_of_the_serial_number_comes_before_that_of_the_order() {
         let error = expected(&orders, order, serial).expect_err(what);
         assert!(error.contains(what), "{error}");
     }
+    for (error, ways) in [
+        (OrderError::NotGiven, ["--order", "TRIGGER ORDER="]),
+        (
+            OrderError::SerialNotGiven {
+                order: "4712".into(),
+            },
+            ["--serial", "TRIGGER SERIAL="],
+        ),
+    ] {
+        let advice = error.advice();
+        let says = |way: &str| advice.contains(way);
+        assert!(ways.into_iter().all(says) && says("window"), "{advice}");
+    }
+}
+
+#[test]
+fn a_table_is_parsed_again_once_its_file_has_changed_and_only_then() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("orders.csv");
+    let mut file = OrdersFile::at(&path);
+    let parts = |table: &TableRead| {
+        let table = table.as_ref().expect("a table");
+        expected(table, "4711", "").expect("known").join(",")
+    };
+    let write = |part: &str, seconds_ago: u64| {
+        std::fs::write(&path, format!("order;parts\n4711;{part}\n")).expect("written");
+        let written = std::fs::File::options().write(true).open(&path);
+        let at = SystemTime::now() - Duration::from_secs(seconds_ago);
+        written.expect("there").set_modified(at).expect("dated");
+        at
+    };
+    assert!(file.table().is_err());
+    write("grille", 60);
+    let first = file.table();
+    assert_eq!(parts(&first), "grille");
+    for _ in 0..3 {
+        let again = file.table().expect("a table");
+        assert!(Arc::ptr_eq(first.as_ref().expect("a table"), &again));
+    }
+    // As long as before.
+    write("fender", 50);
+    assert_eq!(parts(&file.table()), "fender");
+    // On a disk that dates files roughly, it changes twice at one time.
+    let at = write("grille", 0);
+    assert_eq!(parts(&file.table()), "grille");
+    write("fender", 0);
+    let again = std::fs::File::options().write(true).open(&path);
+    again.expect("there").set_modified(at).expect("dated");
+    assert_eq!(parts(&file.table()), "fender");
+    std::fs::remove_file(&path).expect("removed");
+    assert!(file.table().is_err());
 }
 
 #[test]

@@ -77,14 +77,14 @@ pub fn curves_picture(
         };
         canvas.write(words, LETTERS, at, anchor, LIGHT);
     }
-    for (place, curve) in curves.iter().enumerate() {
-        let (colour, pattern) = LOOKS[place % LOOKS.len()];
+    for (index, curve) in curves.iter().enumerate() {
+        let (colour, pattern) = LOOKS[index % LOOKS.len()];
         let corners = curve.points.iter().map(|p| chart.place(*p));
         canvas.polyline(corners, (2.0, pattern), colour);
         for point in &curve.points {
             canvas.dot(chart.place(*point), 3.0, colour);
         }
-        let row = 80.0 + 24.0 * place as f64;
+        let row = 80.0 + 24.0 * index as f64;
         let sample = [[850.0, row - 5.0], [890.0, row - 5.0]];
         canvas.polyline(sample, (2.0, pattern), colour);
         canvas.write(&curve.name, LETTERS, [898.0, row], Anchor::Left, LIGHT);

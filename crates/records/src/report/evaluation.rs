@@ -113,16 +113,16 @@ fn draw_matrix(canvas: &mut Canvas, confusion: &Confusion, [left, top]: [f64; 2]
         let name = column_name(answered);
         canvas.write_upwards(name, LETTERS, at, Anchor::Left, LIGHT);
     }
-    for ((truth, answered), places) in cells {
+    for ((truth, answered), results) in cells {
         let row = rows.iter().position(|row| row == truth);
         let column = columns.iter().position(|column| column == answered);
         let (Some(row), Some(column)) = (row, column) else {
             continue;
         };
-        let (colour, sign) = look(CaseOutcome::of(truth, answered));
+        let (colour, sign) = look(CaseOutcome::new(truth, answered));
         let (from, to) = inner(corner(row, column));
         canvas.block(from, to, colour);
-        let text = format!("{}{sign}", places.len());
+        let text = format!("{}{sign}", results.len());
         let at = [from[0] + CELL / 2.0, from[1] + CELL / 2.0 + 5.0];
         canvas.write(&text, LETTERS, at, Anchor::Middle, LIGHT);
     }

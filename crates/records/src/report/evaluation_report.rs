@@ -163,8 +163,8 @@ fn show_confusion(confusion: &Confusion, text: &mut Text) {
     let column_of = |answered: &CaseAnswer| confusion.columns.iter().position(|c| c == answered);
     for row in &confusion.rows {
         let counts = confusion.columns.iter().map(|column| {
-            let places = confusion.cells.get(&(row.clone(), column.clone()));
-            places.map_or_else(|| ".".to_owned(), |places| places.len().to_string())
+            let results = confusion.cells.get(&(row.clone(), column.clone()));
+            results.map_or_else(|| ".".to_owned(), |results| results.len().to_string())
         });
         let own = row
             .part()

@@ -13,10 +13,11 @@ use robot::Convention;
 use stages::segment::MAX_PARTS;
 
 /// Why a report could not be written.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Advice)]
 pub enum ReportError {
     /// The folder cannot be created.
     #[error("{}: cannot make the report's folder: {}", path.display(), words_of(source))]
+    #[advice(advice_on(source))]
     Folder {
         /// The folder.
         path: PathBuf,
@@ -25,16 +26,8 @@ pub enum ReportError {
     },
     /// A file cannot be written.
     #[error(transparent)]
+    #[advice(transparent)]
     File(#[from] FileError),
-}
-
-impl Advice for ReportError {
-    fn advice(&self) -> String {
-        match self {
-            Self::Folder { source, .. } => advice_on(source).into(),
-            Self::File(error) => error.advice(),
-        }
-    }
 }
 
 /// Name of the picture of all stages.
@@ -55,6 +48,7 @@ pub struct ReportFolder {
     taken: BTreeSet<String>,
     /// Stems in use by pose reports.
     taken_poses: BTreeSet<String>,
+    has_reports: bool,
 }
 
 impl ReportFolder {
@@ -68,7 +62,13 @@ impl ReportFolder {
             path: path.to_owned(),
             taken: BTreeSet::new(),
             taken_poses: BTreeSet::new(),
+            has_reports: false,
         })
+    }
+
+    /// True once [`write`](Self::write) has written one, though perhaps without its pictures.
+    pub fn has_reports(&self) -> bool {
+        self.has_reports
     }
 
     /// Writes the report of a scene, and returns the path of its JSON; `line` is an
@@ -95,6 +95,7 @@ impl ReportFolder {
             BTreeSet::new()
         };
         write_text(&json, &format!("{line}\n"))?;
+        self.has_reports = true;
         let mut written = BTreeSet::new();
         for picture in pictures {
             let path = self.picture(&stem, picture);
@@ -120,26 +121,26 @@ impl ReportFolder {
         paths.filter(is_picture).collect()
     }
 
-    /// Writes the pose report of a scene as `STEM.pose.ENDING` for each ending, and returns the paths.
+    /// Writes the pose report of a scene as `STEM.pose.ENDING` for each ending, and adds the path of each that is written.
     pub fn write_pose(
         &mut self,
         scene: &Path,
         files: &[(&str, Vec<u8>)],
-    ) -> Result<Vec<PathBuf>, ReportError> {
+        written: &mut Vec<PathBuf>,
+    ) -> Result<(), ReportError> {
         let path = |stem: &str, ending: &str| self.path.join(format!("{stem}.pose.{ending}"));
         // A depth image of this name would take the report's JSON for its camera.
         let is_free = |stem: &str| !path(stem, "png").exists() && !self.taken_poses.contains(stem);
         let stem = counted(scene)
             .find(|stem| is_free(stem))
             .unwrap_or_default();
-        let mut paths = Vec::new();
+        self.taken_poses.insert(stem.clone());
         for (ending, bytes) in files {
             let path = path(&stem, ending);
             write_atomically(&path, |writer| writer.write_all(bytes))?;
-            paths.push(path);
+            written.push(path);
         }
-        self.taken_poses.insert(stem);
-        Ok(paths)
+        Ok(())
     }
 
     /// Returns the CSV file that collects the pose reports in one convention.

@@ -191,8 +191,8 @@ impl<'a> View<'a> {
         let (u, v) = (u.round(), v.round());
         let (width, height) = (self.camera.width, self.camera.height);
         let is_inside = u >= 0.0 && v >= 0.0 && u < width as f64 && v < height as f64;
-        let place = is_inside.then(|| v as usize * width + u as usize)?;
-        let depth = f64::from(self.scene.cloud.points.get(place)?.z);
+        let index = is_inside.then(|| v as usize * width + u as usize)?;
+        let depth = f64::from(self.scene.cloud.points.get(index)?.z);
         depth.is_finite().then_some(depth)
     }
 }

@@ -1,5 +1,6 @@
-/* Simulates a failing disk: preloaded before the C library, it makes a call that changes a file of the history fail.
+/* Simulates a failing disk: preloaded before the C library, it makes a call that changes a file fail.
  *
+ * DISK_FILES is a part of the paths of the files whose calls fail.
  * DISK_FAULT is "KIND NUMBER": the kind of fault, and the number of the call at which it occurs.
  *   full    half of the data is written, and nothing from then on
  *   broken  an input/output error at this call and all later ones
@@ -25,11 +26,12 @@
 
 static atomic_int num_calls;
 
-static int is_historys(const char *path) {
-    return strstr(path, "/history.sqlite") != NULL;
+static int is_failing(const char *path) {
+    const char *files = getenv("DISK_FILES");
+    return files != NULL && strstr(path, files) != NULL;
 }
 
-static int is_open_historys(int file) {
+static int is_open_failing(int file) {
     char link[64], path[PATH_MAX];
     snprintf(link, sizeof link, "/proc/self/fd/%d", file);
     ssize_t length = readlink(link, path, sizeof path - 1);
@@ -37,7 +39,7 @@ static int is_open_historys(int file) {
         return 0;
     }
     path[length] = 0;
-    return is_historys(path);
+    return is_failing(path);
 }
 
 /* 1 if the fault begins at this call, 2 if it began earlier, 0 if the call succeeds. */
@@ -69,7 +71,7 @@ static int failed(const char *kind) {
 
 /* Number of bytes that still reach the disk; -1 if the call does not fail. */
 static ssize_t arriving(int file, size_t size, const char **kind) {
-    int turn = is_open_historys(file) ? fails(kind) : 0;
+    int turn = is_open_failing(file) ? fails(kind) : 0;
     if (turn == 0) {
         return -1;
     }
@@ -108,7 +110,7 @@ ssize_t pwrite64(int file, const void *bytes, size_t size, off64_t place) {
 #define OF_OPEN_FILE(name, parameters, arguments)                      \
     int name parameters {                                              \
         const char *kind = "";                                         \
-        if (is_open_historys(file) && fails(&kind)) {                  \
+        if (is_open_failing(file) && fails(&kind)) {                   \
             return failed(kind);                                       \
         }                                                              \
         return REAL(name) arguments;                                   \
@@ -121,7 +123,7 @@ OF_OPEN_FILE(ftruncate64, (int file, off64_t size), (file, size))
 
 int unlink(const char *path) {
     const char *kind = "";
-    if (is_historys(path) && fails(&kind)) {
+    if (is_failing(path) && fails(&kind)) {
         return failed(kind);
     }
     return REAL(unlink)(path);
@@ -137,7 +139,7 @@ int unlink(const char *path) {
             mode = va_arg(more, mode_t);                               \
             va_end(more);                                              \
             const char *kind = "";                                     \
-            if (is_historys(path) && access(path, F_OK) != 0           \
+            if (is_failing(path) && access(path, F_OK) != 0            \
                 && fails(&kind)) {                                     \
                 return failed(kind);                                   \
             }                                                          \

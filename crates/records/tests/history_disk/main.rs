@@ -1,8 +1,8 @@
-//! A history on a disk that fails, wherever `SQLite` itself writes.
+//! A history on a disk that fails, wherever `SQLite` itself writes, and wherever a frame is written.
 //!
 //! `SQLite` writes by calls of its own. A stub library (`disk.c`) intercepts them and lets the n-th one fail, for
 //! every n: with a full disk, an input/output error once or from then on, or the end of the program. Afterwards the
-//! history read is the old one or the new one, and is never set aside as damaged. Without a C compiler the tests
+//! history read is the old one or the new one, and is never set aside as damaged; a frame that fails costs no row. Without a C compiler the tests
 //! report that they are skipped; with `PARTSIGHT_REQUIRE_COMPILER=1` they fail.
 
 #![allow(clippy::disallowed_methods, reason = "tests change files")]
@@ -13,7 +13,9 @@ use std::{env, fs, path::Path, process::Command, thread};
 use capture::fixtures::{SHARED, compile_c};
 use geometry::{error::Advice as _, fixtures::skipped};
 use records::fixtures::{history_entry, open_history};
-use records::history::{Filter, History, HistoryError, KeepFrames, Retention, StoredVerdict};
+use records::history::{
+    Filter, FrameLoss, History, HistoryError, KeepFrames, Retention, StoredVerdict,
+};
 
 /// Environment variable of the process whose disk fails: its folder.
 const BODY: &str = "PARTSIGHT_HISTORY_DISK_TEST";
@@ -97,11 +99,16 @@ struct Reply {
     num_read: Option<usize>,
 }
 
-fn run(folder: &Path, disk: &Path, fault: &str) -> Reply {
+/// Which files fail: those of the database, or the frames.
+const DATABASE: &str = "/history.sqlite";
+const FRAMES: &str = "/history-frames/";
+
+fn run(folder: &Path, disk: &Path, files: &str, fault: &str) -> Reply {
     let output = Command::new(env::current_exe().expect("this program"))
         .args(["body", "--exact", "--nocapture", "--test-threads=1"])
         .env(BODY, folder)
         .env("LD_PRELOAD", disk)
+        .env("DISK_FILES", files)
         .env("DISK_FAULT", fault)
         .env("DISK_MARK", folder.join("mark"))
         .output()
@@ -199,7 +206,7 @@ fn fails_in_one_way(kind: &str, num_before: usize, is_listed: bool, prepared: &P
         let fault = format!("{kind} {at}");
         let folder = tempfile::tempdir().expect("a folder");
         copy(prepared, folder.path());
-        let reply = run(folder.path(), disk, &fault);
+        let reply = run(folder.path(), disk, DATABASE, &fault);
         let has_failed = folder.path().join("mark").exists();
         for error in &reply.errors {
             let is_fitting = error.contains("disk") || error.contains("writable");
@@ -241,6 +248,45 @@ fn copy(from: &Path, to: &Path) {
             copy(&entry.path(), &target);
         } else {
             fs::copy(entry.path(), target).expect("copied");
+        }
+    }
+}
+
+#[test]
+fn whichever_call_of_a_frame_fails_its_inspection_is_written_and_says_why_the_frame_is_not_kept() {
+    let tools = tempfile::tempdir().expect("a folder");
+    let disk = tools.path().join("libdisk.so");
+    if let Err(why) = compile_c("crates/records/tests/history_disk/disk.c", &disk, &SHARED) {
+        return skipped("PARTSIGHT_REQUIRE_COMPILER", &why);
+    }
+    for (kind, loss) in [
+        ("full", FrameLoss::DiskFull),
+        ("broken", FrameLoss::NotWritable),
+        ("once", FrameLoss::NotWritable),
+    ] {
+        for at in 1..=MOST_CALLS {
+            let fault = format!("{kind} {at}");
+            let folder = tempfile::tempdir().expect("a folder");
+            let reply = run(folder.path(), &disk, FRAMES, &fault);
+            assert_eq!(reply.errors, [""; 0], "{fault}");
+            assert_eq!(reply.num_done, STEPS.len(), "{fault}");
+            let history = open_history(folder.path());
+            let mut num_lost = 0;
+            for number in 1..=2 {
+                let record = history.known(number).expect("written");
+                let scene = history.scene(&record).expect("read");
+                let lost = record.detail.frame_loss;
+                assert_ne!(scene.is_some(), lost.is_some(), "{fault}: {number}");
+                assert!(lost.is_none_or(|lost| lost == loss), "{fault}: {lost:?}");
+                num_lost += usize::from(lost.is_some());
+            }
+            let has_failed = folder.path().join("mark").exists();
+            assert_eq!(num_lost > 0, has_failed, "{fault}");
+            if !has_failed {
+                assert!(at > 4, "{kind}: only {at} calls");
+                break;
+            }
+            assert!(at < MOST_CALLS, "{kind}: no end");
         }
     }
 }

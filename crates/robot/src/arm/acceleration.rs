@@ -178,9 +178,9 @@ impl<'a> Run<'a> {
             [Some(before), Some(behind)] => {
                 let now = self.times[here];
                 let times = [now - self.times[before], self.times[behind] - now];
-                let places = [before, here, behind];
-                let of_joint = self.joint_problem(places, times);
-                of_joint.or_else(|| self.rail_problem(places, times))
+                let indices = [before, here, behind];
+                let of_joint = self.joint_problem(indices, times);
+                of_joint.or_else(|| self.rail_problem(indices, times))
             }
             _ => None,
         };
@@ -193,7 +193,7 @@ impl<'a> Run<'a> {
         times: [f64; 2],
     ) -> Option<PointProblem> {
         let limits = self.placed.arm.accelerations?;
-        let joints = |place: usize| self.checked[place].joints;
+        let joints = |index: usize| self.checked[index].joints;
         let middle = joints(here)?;
         let mean = Excess::of(
             [&joints(before)?, &middle, &joints(behind)?],
@@ -218,10 +218,10 @@ impl<'a> Run<'a> {
         })
     }
 
-    fn rail_problem(&self, places: [usize; 3], times: [f64; 2]) -> Option<PointProblem> {
+    fn rail_problem(&self, indices: [usize; 3], times: [f64; 2]) -> Option<PointProblem> {
         let (rail, _) = self.placed.arm.moving_rail()?;
         let limit = rail.acceleration?;
-        let rails = places.map(|place| self.checked[place].rail);
+        let rails = indices.map(|index| self.checked[index].rail);
         let acceleration = second_difference(rails, times).abs();
         let is_too_much = acceleration > limit * (1.0 + TIME_TOLERANCE_S);
         is_too_much.then_some(PointProblem::RailAcceleration {
@@ -253,7 +253,7 @@ impl<'a> Run<'a> {
 
     /// The joints at a time during the move from one point to the next, nearest to those at `near`.
     fn joints_at(&self, from: usize, time: f64, near: usize) -> Option<Joints> {
-        let end = |place: usize| WayEnd::of(&self.checked[place]);
+        let end = |index: usize| WayEnd::of(&self.checked[index]);
         let (start, end) = (end(from)?, end(from + 1)?);
         let share = (time - self.times[from]) / (self.times[from + 1] - self.times[from]);
         start.joints_towards(&end, share, self.placed, &self.checked[near].joints?)

@@ -58,7 +58,7 @@ pub(super) struct Candidate {
 
 impl Candidate {
     /// The configuration as a number from 0.
-    fn place(&self) -> usize {
+    fn configuration_number(&self) -> usize {
         self.configuration.trailing_zeros() as usize
     }
 
@@ -346,8 +346,8 @@ impl<'a> Former<'a> {
         let mut least = [f64::INFINITY; NUM_CONFIGURATIONS];
         for members in order.chunk_by(|&a, &b| kind(a) == kind(b)) {
             let first = members[0];
-            let place = candidates[first].place();
-            least[place] = least[place].min(chains[first].0);
+            let configuration = candidates[first].configuration_number();
+            least[configuration] = least[configuration].min(chains[first].0);
             let mut range = candidates[first].joints.map(|angle| [angle; 2]);
             for &k in members {
                 for ([low, high], angle) in range.iter_mut().zip(candidates[k].joints) {
@@ -355,7 +355,7 @@ impl<'a> Former<'a> {
                     *high = high.max(angle);
                 }
             }
-            groups[place][candidates[first].turn].push(Group {
+            groups[configuration][candidates[first].turn].push(Group {
                 range,
                 members: members.to_vec(),
             });
@@ -398,19 +398,23 @@ impl<'a> Former<'a> {
 
     /// The cheapest chain and move to a candidate with at most this many steps of turn, if it is cheaper than `best`.
     fn cheapest(&self, candidate: &Candidate, most_apart: usize, mut best: Chained) -> Chained {
-        let own = candidate.place();
-        let others = (0..NUM_CONFIGURATIONS).filter(|place| *place != own);
-        for place in [own].into_iter().chain(others) {
-            let change = if place == own { 0.0 } else { self.jump_cost };
-            if self.least[place] + change > best.0 {
+        let own = candidate.configuration_number();
+        let others = (0..NUM_CONFIGURATIONS).filter(|configuration| *configuration != own);
+        for configuration in [own].into_iter().chain(others) {
+            let change = if configuration == own {
+                0.0
+            } else {
+                self.jump_cost
+            };
+            if self.least[configuration] + change > best.0 {
                 continue;
             }
             for apart in 0..=most_apart {
-                let is_jump = place != own || 4 * apart > self.num_turns;
+                let is_jump = configuration != own || 4 * apart > self.num_turns;
                 let up = (candidate.turn + apart) % self.num_turns;
                 let down = (candidate.turn + self.num_turns - apart) % self.num_turns;
                 let turns = [up].into_iter().chain((down != up).then_some(down));
-                for group in turns.flat_map(|turn| &self.groups[place][turn]) {
+                for group in turns.flat_map(|turn| &self.groups[configuration][turn]) {
                     best = self.cheapest_of(group, candidate, apart, is_jump, best);
                 }
             }

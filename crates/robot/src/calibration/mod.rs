@@ -147,18 +147,14 @@ impl Origin {
 }
 
 /// The camera is on the flange, and the arm's pose at the capture is not known.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error, Advice)]
 #[error("the camera is on the robot's flange, and the arm's pose at the capture is not known")]
+#[advice = "Give the arm's pose with --robot-pose, or store the one that captures are taken from: partsight calibrate capture-pose"]
 pub struct NoRobotPose;
 
-impl Advice for NoRobotPose {
-    fn advice(&self) -> String {
-        "Give the arm's pose with --robot-pose, or store the one that captures are taken from: partsight calibrate capture-pose".into()
-    }
-}
-
 /// A shift that is probably in another unit.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error, Advice)]
+#[advice = "Check the unit of the convention (partsight report --conventions), and enter the pose again if it is wrong"]
 pub enum UnitDoubt {
     /// Too far for metres.
     #[error("{name} shifts by {:.0} m: these look like millimetres given as metres", distance.0)]
@@ -176,12 +172,6 @@ pub enum UnitDoubt {
         /// Length of its shift.
         distance: Metres,
     },
-}
-
-impl Advice for UnitDoubt {
-    fn advice(&self) -> String {
-        "Check the unit of the convention (partsight report --conventions), and enter the pose again if it is wrong".into()
-    }
 }
 
 impl CameraPlace {

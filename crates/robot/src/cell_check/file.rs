@@ -38,44 +38,35 @@ pub struct CellCheckFolder {
 }
 
 /// Why a baseline or the checks cannot be read or written.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Advice)]
 pub enum CellCheckError {
     /// A file cannot be read or written.
     #[error(transparent)]
+    #[advice(match _0 {
+        FileError::Newer { .. } => "Update Partsight, or take a new baseline with this version".into(),
+        other => other.advice(),
+    })]
     File(#[from] FileError),
     /// There is no baseline yet.
     #[error("{}: there is no baseline to compare with", path.display())]
+    #[advice = "Take one while the cell is right: partsight cell baseline FILE, or --source kinect"]
     NoBaseline {
         /// The folder.
         path: PathBuf,
     },
     /// A file has unexpected content.
     #[error("{}: {found}", path.display())]
+    #[advice(if path.ends_with(CHECKS) {
+        "Move the file away: the next check begins a new one"
+    } else {
+        "Take a new baseline"
+    })]
     Bad {
         /// The file.
         path: PathBuf,
         /// The first error in it.
         found: String,
     },
-}
-
-impl Advice for CellCheckError {
-    fn advice(&self) -> String {
-        match self {
-            Self::File(FileError::Newer { .. }) => {
-                "Update Partsight, or take a new baseline with this version".into()
-            }
-            Self::File(error) => error.advice(),
-            Self::NoBaseline { .. } => {
-                "Take one while the cell is right: partsight cell baseline FILE, or --source kinect"
-                    .into()
-            }
-            Self::Bad { path, .. } if path.ends_with(CHECKS) => {
-                "Move the file away: the next check begins a new one".into()
-            }
-            Self::Bad { .. } => "Take a new baseline".into(),
-        }
-    }
 }
 
 /// Content of the baseline file.

@@ -15,7 +15,7 @@ fn views(kind: PartKind, noise: [u64; 3], moved: &RigidTransform) -> Vec<CellVie
         let mut setup = setup;
         setup.pose = PartPose::Fixed(moved * standing);
         setup.noise = SensorNoise::kinect(seed);
-        CellView::of(&scene_of(&setup), &SegmentParams::default()).expect("a part")
+        CellView::from_scene(&scene_of(&setup), &SegmentParams::default()).expect("a part")
     };
     noise.map(view).into()
 }

@@ -90,7 +90,7 @@ impl CellViews {
 
     /// Finds the part in the next frame.
     pub fn add(&mut self, scene: &SceneCloud) -> Result<(), NoPart> {
-        self.views.push(CellView::of(scene, &self.params)?);
+        self.views.push(CellView::from_scene(scene, &self.params)?);
         self.is_simulated |= scene.cloud.is_simulated;
         Ok(())
     }
@@ -98,7 +98,7 @@ impl CellViews {
 
 impl CellView {
     /// Finds the part in a frame.
-    pub fn of(scene: &SceneCloud, params: &SegmentParams) -> Result<Self, NoPart> {
+    pub fn from_scene(scene: &SceneCloud, params: &SegmentParams) -> Result<Self, NoPart> {
         let segmentation = segment(scene, params);
         let part = segmentation.part?;
         let points = scene.cloud.points.iter().zip(&segmentation.labels);

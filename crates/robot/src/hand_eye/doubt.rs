@@ -12,10 +12,11 @@ use geometry::{
 };
 
 /// A doubt about a calibration.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error, Advice)]
 pub enum HandEyeDoubt {
     /// A position is farther away than any cell is large: probably another unit.
     #[error("{pair}: {what} lies {:.0} m away", distance.0)]
+    #[advice(CHECK_UNIT)]
     FarAway {
         /// Name of the pair.
         pair: String,
@@ -26,6 +27,7 @@ pub enum HandEyeDoubt {
     },
     /// All positions are nearer than those of any cell: probably another unit.
     #[error("{what} never lies more than {:.1} mm from {origin}", distance.mm())]
+    #[advice(CHECK_UNIT)]
     TooNear {
         /// The flange or the target.
         what: &'static str,
@@ -39,6 +41,7 @@ pub enum HandEyeDoubt {
         "between the same captures robot and camera turned by angles that differ by {:.1}° (median): the poses do not belong together, or one of them is read in the wrong convention",
         apart.degrees()
     )]
+    #[advice = "Check the convention of the robot's poses, and that each line holds both poses of one capture"]
     TurnsDisagree {
         /// Median of the differences.
         apart: Radians,
@@ -48,6 +51,7 @@ pub enum HandEyeDoubt {
         "the pairs do not agree ({:.1} mm and {:.2}° rms), but they would to {:.1} mm and {:.2}° if {mistake}",
         rms.shift.mm(), rms.rotation.degrees(), then.shift.mm(), then.rotation.degrees()
     )]
+    #[advice(mistake.advice())]
     Mistaken {
         /// The probable mistake.
         mistake: LikelyMistake,
@@ -58,6 +62,8 @@ pub enum HandEyeDoubt {
     },
     /// Camera or target would be too far from the flange that it is mounted on.
     #[error("{what} would sit {:.0} mm from the flange{}", distance.mm(), if_inverted(*inverted))]
+    #[advice = "Check that the robot's poses are robot_from_flange and the camera's camera_from_target, and not both the other way round, \
+               and that the unit of the lengths is right"]
     FarFromFlange {
         /// The camera, or the target.
         what: &'static str,
@@ -68,6 +74,7 @@ pub enum HandEyeDoubt {
     },
     /// The camera cannot have seen the target where it would be.
     #[error("the target would lie behind the camera in {behind} of {found} pairs")]
+    #[advice = "Check that the camera's poses are camera_from_target, not the other way round, in a frame with x right, y down and z forward"]
     BehindCamera {
         /// Pairs whose target lies behind the camera.
         behind: usize,
@@ -78,15 +85,18 @@ pub enum HandEyeDoubt {
     #[error(
         "another place of the camera fits the pairs as well: the turns are half turns about axes at right angles"
     )]
+    #[advice = "Take some pairs with turns of 30° to 90° between them"]
     SeveralAnswers,
     /// The pairs do not agree, for no known reason.
     #[error("the pairs do not agree: {:.1} mm and {:.2}° rms", rms.shift.mm(), rms.rotation.degrees())]
+    #[advice = "Check that the target did not move, that the arm stood still at every capture, and that the controller shows the flange without a tool"]
     Disagree {
         /// Root mean square of all pairs that are not suspect.
         rms: PoseDelta,
     },
     /// The arm hardly turned.
     #[error("the flange turned by {:.1}° at most", span.largest_turn.degrees())]
+    #[advice = "Take more pairs, turning the flange about two different axes by at least 30°"]
     SmallTurns {
         /// What the poses span.
         span: Span,
@@ -96,6 +106,7 @@ pub enum HandEyeDoubt {
         "nearly all turns are about one axis, {}; about other axes the flange turned by {:.1}° (rms)",
         span.main_axis_in_words(), span.other_turn.degrees()
     )]
+    #[advice = "Take more pairs, turning the flange about another axis by at least 30°"]
     OneAxis {
         /// What the poses span.
         span: Span,
@@ -105,6 +116,7 @@ pub enum HandEyeDoubt {
         "{pair} is suspect: {:.1} mm and {:.2}° off the other pairs, which agree to {:.1} mm and {:.2}° rms",
         off.shift.mm(), off.rotation.degrees(), others.shift.mm(), others.rotation.degrees()
     )]
+    #[advice = "Check this pair, or calculate without it"]
     Suspect {
         /// Name of the pair.
         pair: String,
@@ -115,12 +127,14 @@ pub enum HandEyeDoubt {
     },
     /// The pairs leave X too uncertain for painting.
     #[error("the camera's place may be off by {:.1} mm and {:.2}°", bounds.shift.mm(), bounds.turn.degrees())]
+    #[advice = "Take more pairs, with larger turns about different axes and the target in all parts of the picture"]
     Loose {
         /// Bounds of the error of X.
         bounds: CalibrationBounds,
     },
     /// The target was always at about the same place in the camera frame.
     #[error("the camera saw the target within {:.0} mm of one place", span.travel.mm())]
+    #[advice = "Take some pairs with the target 20 cm and more to the sides, nearer and farther"]
     LittleTravel {
         /// What the poses span.
         span: Span,
@@ -129,6 +143,7 @@ pub enum HandEyeDoubt {
     #[error(
         "with {found} different pairs the residuals say little about how far off the result is"
     )]
+    #[advice = "Take 8 to 15 pairs"]
     FewPairs {
         /// Pairs from different poses of the arm.
         found: usize,
@@ -157,74 +172,8 @@ impl HandEyeDoubt {
     }
 }
 
-impl Advice for HandEyeDoubt {
-    fn advice(&self) -> String {
-        match self {
-            Self::FarAway { .. } | Self::TooNear { .. } => {
-                "Check the unit of the lengths: each convention has its own (partsight report --conventions)".into()
-            }
-            Self::TurnsDisagree { .. } => {
-                "Check the convention of the robot's poses, and that each line holds both poses of one capture".into()
-            }
-            Self::Mistaken { mistake, .. } => match mistake {
-                LikelyMistake::RobotInverted => {
-                    "Check the mount, and that the robot's poses are robot_from_flange: the flange as the controller shows it".into()
-                }
-                LikelyMistake::CameraInverted => {
-                    "Check the mount first (--mount). Only if it is right, invert the camera's poses: camera_from_target says \
-                     where the camera sees the target"
-                        .into()
-                }
-                LikelyMistake::BothInverted => {
-                    "Check that the robot's poses are robot_from_flange and the camera's camera_from_target".into()
-                }
-                LikelyMistake::AnglesSwapped => {
-                    "Check the convention of the robot's poses: kuka, or fanuc or yaskawa".into()
-                }
-                LikelyMistake::RobotScalarMoved => {
-                    "Check the convention of the robot's poses: abb has the scalar first, quaternion-xyzw last".into()
-                }
-                LikelyMistake::CameraScalarMoved => {
-                    "Check the convention of the camera's poses: abb has the scalar first, quaternion-xyzw last".into()
-                }
-                LikelyMistake::CameraInMillimetres | LikelyMistake::CameraInMetres => {
-                    "Check the unit of the camera's poses: name the convention that they are written in".into()
-                }
-                LikelyMistake::RobotInMillimetres | LikelyMistake::RobotInMetres => {
-                    "Check the unit of the robot's poses: write them in that of their convention (partsight report --conventions)".into()
-                }
-            },
-            Self::FarFromFlange { .. } => {
-                "Check that the robot's poses are robot_from_flange and the camera's camera_from_target, and not both the other way round, and that the unit of the lengths is right".into()
-            }
-            Self::BehindCamera { .. } => {
-                "Check that the camera's poses are camera_from_target, not the other way round, in a frame with x right, y down and z forward".into()
-            }
-            Self::SeveralAnswers => {
-                "Take some pairs with turns of 30° to 90° between them".into()
-            }
-            Self::Disagree { .. } => {
-                "Check that the target did not move, that the arm stood still at every capture, and that the controller shows the flange without a tool".into()
-            }
-            Self::SmallTurns { .. } => {
-                "Take more pairs, turning the flange about two different axes by at least 30°".into()
-            }
-            Self::OneAxis { .. } => {
-                "Take more pairs, turning the flange about another axis by at least 30°".into()
-            }
-            Self::Suspect { .. } => {
-                "Check this pair, or calculate without it".into()
-            }
-            Self::Loose { .. } => {
-                "Take more pairs, with larger turns about different axes and the target in all parts of the picture".into()
-            }
-            Self::LittleTravel { .. } => {
-                "Take some pairs with the target 20 cm and more to the sides, nearer and farther".into()
-            }
-            Self::FewPairs { .. } => "Take 8 to 15 pairs".into(),
-        }
-    }
-}
+const CHECK_UNIT: &str =
+    "Check the unit of the lengths: each convention has its own (partsight report --conventions)";
 
 /// No cell is larger.
 pub(super) const FARTHEST: Metres = Metres(20.0);

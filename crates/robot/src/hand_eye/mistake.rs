@@ -11,6 +11,7 @@ use super::{
     equations_of, refine,
 };
 use geometry::{
+    error::Advice,
     rigid::{PoseDelta, RigidTransform},
     statistics::median,
     units::{Metres, Radians},
@@ -27,51 +28,65 @@ const AGREE: PoseDelta = PoseDelta {
 const MUCH_BETTER: f64 = 0.25;
 
 /// A common mistake that would explain the pairs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error, Advice)]
 pub enum LikelyMistake {
     /// The robot's poses were inverted, or the mount is the other one.
     #[error(
         "the robot's poses went the other way (flange_from_robot), or the camera sat on the other mount"
     )]
+    #[advice = "Check the mount, and that the robot's poses are robot_from_flange: the flange as the controller shows it"]
     RobotInverted,
     /// The camera's poses were inverted, or the mount is the other one: both give the same equations.
     #[error(
         "the camera sat on the other mount, or its poses went the other way (target_from_camera)"
     )]
+    #[advice = "Check the mount first (--mount). Only if it is right, invert the camera's poses: camera_from_target says where the camera sees the target"]
     CameraInverted,
     /// Robot and camera poses were both inverted: X and Z change places, and the pairs agree as well.
     #[error(
         "the poses of robot and camera both went the other way (flange_from_robot and target_from_camera)"
     )]
+    #[advice = "Check that the robot's poses are robot_from_flange and the camera's camera_from_target"]
     BothInverted,
     /// The robot's angles about x and z were read for one another.
     #[error(
         "the first and the third angle of the robot's poses changed places: KUKA's A B C begin with the turn about z, FANUC's W P R and Yaskawa's Rx Ry Rz with that about x"
     )]
+    #[advice = "Check the convention of the robot's poses: kuka, or fanuc or yaskawa"]
     AnglesSwapped,
     /// The scalar of the robot's quaternions was read at the wrong end.
     #[error(
         "the scalar of the robot's quaternions stood at the other end: ABB's q1 q2 q3 q4 begin with it, quaternion-xyzw ends with it"
     )]
+    #[advice = "Check the convention of the robot's poses: abb has the scalar first, quaternion-xyzw last"]
     RobotScalarMoved,
     /// The same for the camera's quaternions.
     #[error(
         "the scalar of the camera's quaternions stood at the other end: ABB's q1 q2 q3 q4 begin with it, quaternion-xyzw ends with it"
     )]
+    #[advice = "Check the convention of the camera's poses: abb has the scalar first, quaternion-xyzw last"]
     CameraScalarMoved,
     /// The camera's lengths were millimetres read as metres.
     #[error("the camera's lengths were a thousandth of what was read")]
+    #[advice(CHECK_CAMERA_UNIT)]
     CameraInMillimetres,
     /// The camera's lengths were metres read as millimetres.
     #[error("the camera's lengths were a thousand times what was read")]
+    #[advice(CHECK_CAMERA_UNIT)]
     CameraInMetres,
     /// The robot's lengths were millimetres read as metres.
     #[error("the robot's lengths were a thousandth of what was read")]
+    #[advice(CHECK_ROBOT_UNIT)]
     RobotInMillimetres,
     /// The robot's lengths were metres read as millimetres.
     #[error("the robot's lengths were a thousand times what was read")]
+    #[advice(CHECK_ROBOT_UNIT)]
     RobotInMetres,
 }
+
+const CHECK_CAMERA_UNIT: &str =
+    "Check the unit of the camera's poses: name the convention that they are written in";
+const CHECK_ROBOT_UNIT: &str = "Check the unit of the robot's poses: write them in that of their convention (partsight report --conventions)";
 
 /// Returns why the pairs do not agree, if they do not.
 pub(super) fn disagreement(mount: Mount, poses: &[Poses], rms: PoseDelta) -> Option<HandEyeDoubt> {

@@ -123,44 +123,33 @@ pub const LEAST_PAIRS: usize = 3;
 pub const MOST_PAIRS: usize = 1000;
 
 /// Why a calibration cannot be computed.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, Advice)]
 pub enum HandEyeError {
     /// Too few pairs.
     #[error("{found} different pairs of robot and camera poses, at least {LEAST_PAIRS} are needed")]
+    #[advice = "Take 8 to 15 pairs, turning the flange about two different axes by 30° and more between them"]
     TooFewPairs {
         /// Pairs from different poses of the arm.
         found: usize,
     },
     /// Too many pairs.
     #[error("{found} pairs of robot and camera poses, at most {MOST_PAIRS} are taken")]
+    #[advice = "Leave out all but a few dozen well spread pairs"]
     TooManyPairs {
         /// Pairs given.
         found: usize,
     },
     /// A pose has a number that is not finite.
     #[error("{pair}: a pose holds a number that is not finite")]
+    #[advice = "Correct the numbers of {pair}, or leave it out"]
     NotFinite {
         /// Name of the pair.
         pair: String,
     },
     /// The arm's poses hardly differ, so nothing can be solved for.
     #[error("the pairs leave the camera's place open: no two poses of the arm differ enough")]
+    #[advice = "Move the arm between the captures: turn the flange about two different axes by 30° to 90°"]
     Unsolvable,
-}
-
-impl Advice for HandEyeError {
-    fn advice(&self) -> String {
-        match self {
-            Self::TooFewPairs { .. } => {
-                "Take 8 to 15 pairs, turning the flange about two different axes by 30° and more between them".into()
-            }
-            Self::TooManyPairs { .. } => "Leave out all but a few dozen well spread pairs".into(),
-            Self::NotFinite { pair } => format!("Correct the numbers of {pair}, or leave it out"),
-            Self::Unsolvable => {
-                "Move the arm between the captures: turn the flange about two different axes by 30° to 90°".into()
-            }
-        }
-    }
 }
 
 /// The deviation of one pair from the solution.

@@ -63,13 +63,19 @@ impl Numbers {
 }
 
 /// Why the file of a line cannot be read or written.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Advice)]
 pub enum LineFileError {
     /// The file cannot be read or written.
     #[error(transparent)]
+    #[advice(match _0 {
+        FileError::NotFound { .. } => "Check the path, or calibrate the line: partsight calibrate line".into(),
+        FileError::Newer { .. } => "Update Partsight, or calibrate the line again with this version".into(),
+        other => other.advice(),
+    })]
     File(#[from] FileError),
     /// The file has unexpected content.
     #[error("{}: not the file of a line: {found}", path.display())]
+    #[advice = "Correct slip_percent, exposure_ms or delay_ms in a text editor, or calibrate the line again: partsight calibrate line"]
     Bad {
         /// The file.
         path: PathBuf,
@@ -78,30 +84,11 @@ pub enum LineFileError {
     },
     /// The numbers are not those that the program wrote.
     #[error("{}: the numbers were changed after the calibration: its checksum does not match", path.display())]
+    #[advice = "Calibrate the line again: partsight calibrate line. Only slip_percent, exposure_ms and delay_ms may be edited"]
     Edited {
         /// The file.
         path: PathBuf,
     },
-}
-
-impl Advice for LineFileError {
-    fn advice(&self) -> String {
-        match self {
-            Self::File(FileError::NotFound { .. }) => {
-                "Check the path, or calibrate the line: partsight calibrate line".into()
-            }
-            Self::File(FileError::Newer { .. }) => {
-                "Update Partsight, or calibrate the line again with this version".into()
-            }
-            Self::File(error) => error.advice(),
-            Self::Bad { .. } => {
-                "Correct slip_percent, exposure_ms or delay_ms in a text editor, or calibrate the line again: partsight calibrate line".into()
-            }
-            Self::Edited { .. } => {
-                "Calibrate the line again: partsight calibrate line. Only slip_percent, exposure_ms and delay_ms may be edited".into()
-            }
-        }
-    }
 }
 
 impl LineCalibration {

@@ -46,28 +46,32 @@ const TELLING_WAY_M: f64 = 0.02;
 const BOUND_DEVIATIONS: f64 = 2.0;
 
 /// Why no line can be fitted to poses and counts.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error, Advice)]
 pub enum LineFitError {
     /// Too few poses.
     #[error("{found} poses of the part with a count, at least {MIN_POSES} are needed")]
+    #[advice = "Let the part pass slowly, and take {MIN_POSES} frames or more that show it whole, each with its count"]
     TooFew {
         /// Their number.
         found: usize,
     },
     /// The counts do not change.
     #[error("the counts do not change: all are {count}")]
+    #[advice = "Check that the encoder is connected and the controller reads its counter, and let the line run"]
     NoCounts {
         /// The count.
         count: i64,
     },
     /// The counts rise and fall.
     #[error("{name}: the counts rise before it and fall to it, or the other way round")]
+    #[advice = "Let the line run in one direction only, and give the frames in the order in which they were taken"]
     BothWays {
         /// The pose at which they turn.
         name: String,
     },
     /// The counter was reset on the way.
     #[error("{name}: the count jumps from {from} to {to} although the part moved on by {:.0} mm only", way.mm())]
+    #[advice = "Let the counter run on: switch off its reset at a part or a trigger, and check --counter-bits"]
     Reset {
         /// The pose after the reset.
         name: String,
@@ -80,12 +84,14 @@ pub enum LineFitError {
     },
     /// The part moved too little.
     #[error("the part moved by {:.0} mm, at least {:.0} mm are needed", way.mm(), 1000.0 * MIN_WAY_M)]
+    #[advice = "Take frames from where the part has just come in whole to where it is about to leave"]
     TooShort {
         /// Way between the first and the last pose.
         way: Metres,
     },
     /// The part turned.
     #[error("{name}: the part is turned by {:.1}° from its other poses", turn.degrees())]
+    #[advice(LET_RUN_EVENLY)]
     Turned {
         /// The pose that is turned most.
         name: String,
@@ -94,6 +100,7 @@ pub enum LineFitError {
     },
     /// The poses do not lie on a line by their counts.
     #[error("the part swung, or was not carried by the line that the encoder counts: it is {:.1} mm off the line (rms), {name} {:.1} mm", rms.mm(), off.mm())]
+    #[advice(LET_RUN_EVENLY)]
     Off {
         /// Root mean square distance from the line.
         rms: Metres,
@@ -104,32 +111,7 @@ pub enum LineFitError {
     },
 }
 
-impl Advice for LineFitError {
-    fn advice(&self) -> String {
-        match self {
-            Self::TooFew { .. } => format!(
-                "Let the part pass slowly, and take {MIN_POSES} frames or more that show it whole, each with its count"
-            ),
-            Self::NoCounts { .. } => {
-                "Check that the encoder is connected and the controller reads its counter, and let the line run".into()
-            }
-            Self::BothWays { .. } => {
-                "Let the line run in one direction only, and give the frames in the order in which they were taken".into()
-            }
-            Self::Reset { .. } => {
-                "Let the counter run on: switch off its reset at a part or a trigger, and check --counter-bits".into()
-            }
-            Self::TooShort { .. } => {
-                "Take frames from where the part has just come in whole to where it is about to leave".into()
-            }
-            Self::Turned { .. } | Self::Off { .. } => {
-                "Hang the part so that it does not swing, start the line gently, and take the frames while it runs evenly; check \
-                 that each count belongs to its frame"
-                    .into()
-            }
-        }
-    }
-}
+const LET_RUN_EVENLY: &str = "Hang the part so that it does not swing, start the line gently, and take the frames while it runs evenly; check that each count belongs to its frame";
 
 /// Fits the line. `middle` is the middle of the part, part space, metres; `counter` how its counts begin again. The name of the
 /// part and the time are the caller's.

@@ -67,19 +67,22 @@ pub struct StripeFit {
 }
 
 /// Why no gun can be fitted.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Advice)]
 pub enum StripeError {
     /// The file cannot be read.
     #[error(transparent)]
+    #[advice(transparent)]
     File(#[from] FileError),
     /// The heading does not name both columns.
     #[error("{}: no heading that names offset_mm and thickness_um", path.display())]
+    #[advice = "Begin the file with a line offset_mm,thickness_um, then write one place per line"]
     NoColumns {
         /// The file.
         path: PathBuf,
     },
     /// A line has no offset or no thickness.
     #[error("{}, line {line}: expected an offset and a thickness", path.display())]
+    #[advice = "Correct the line; nothing was written"]
     NoNumbers {
         /// The file.
         path: PathBuf,
@@ -90,6 +93,7 @@ pub enum StripeError {
     #[error(
         "{}, line {line}: {value} is no {what}, expected {low:.0} to {high:.0}", path.display()
     )]
+    #[advice = "Correct the line; if the gauge shows less than 0 on the bare plate, zero it there and measure again"]
     Impossible {
         /// The file.
         path: PathBuf,
@@ -106,36 +110,42 @@ pub enum StripeError {
     },
     /// The stripe has too few or too many places.
     #[error("the stripe has {found} places, expected {MIN_SAMPLES} to {MAX_SAMPLES}")]
+    #[advice = "Measure every 5 to 20 mm across the stripe, from bare metal to bare metal"]
     Count {
         /// Number of places.
         found: usize,
     },
     /// Some offsets or thicknesses are not finite.
     #[error("{found} places of the stripe are not finite")]
+    #[advice(ZERO_GAUGE)]
     NotFinite {
         /// Number of such places.
         found: usize,
     },
     /// A thickness is below zero by more than noise.
     #[error("a thickness of {micrometres:.1} µm is below 0 by more than noise")]
+    #[advice(ZERO_GAUGE)]
     Negative {
         /// The least thickness, µm.
         micrometres: f64,
     },
     /// The places show no paint, an even film, or another shape than a stripe.
     #[error("the places show no stripe: {what}")]
+    #[advice = "Spray one straight stripe over a plate and measure across it, from bare metal to bare metal"]
     NoStripe {
         /// What is wrong with them.
         what: &'static str,
     },
     /// The speed or the distance is not above 0.
     #[error("{name} must be above 0 and finite")]
+    #[advice = "Give the speed in mm/s and the distance in mm"]
     BadSetting {
         /// Name of the value.
         name: &'static str,
     },
     /// A parameter of the fitted gun is out of a coat's range.
     #[error("the stripe would need {what} of {value:.1} {unit}, expected {low:.0} to {high:.0}")]
+    #[advice = "Check --speed and --distance, and flow and solids of the coat, for example --set gun.flow=300"]
     OutOfRange {
         /// Name of the parameter.
         what: &'static str,
@@ -150,33 +160,7 @@ pub enum StripeError {
     },
 }
 
-impl Advice for StripeError {
-    fn advice(&self) -> String {
-        match self {
-            Self::File(error) => error.advice(),
-            Self::NoColumns { .. } => {
-                "Begin the file with a line offset_mm,thickness_um, then write one place per line".into()
-            }
-            Self::NoNumbers { .. } => "Correct the line; nothing was written".into(),
-            Self::Impossible { .. } => {
-                "Correct the line; if the gauge shows less than 0 on the bare plate, zero it there and measure again".into()
-            }
-            Self::Count { .. } => {
-                "Measure every 5 to 20 mm across the stripe, from bare metal to bare metal".into()
-            }
-            Self::NotFinite { .. } | Self::Negative { .. } => {
-                "Zero the gauge on the bare plate, and measure these places again".into()
-            }
-            Self::NoStripe { .. } => {
-                "Spray one straight stripe over a plate and measure across it, from bare metal to bare metal".into()
-            }
-            Self::BadSetting { .. } => "Give the speed in mm/s and the distance in mm".into(),
-            Self::OutOfRange { .. } => {
-                "Check --speed and --distance, and flow and solids of the coat, for example --set gun.flow=300".into()
-            }
-        }
-    }
-}
+const ZERO_GAUGE: &str = "Zero the gauge on the bare plate, and measure these places again";
 
 /// Reads a stripe: a table whose heading names the columns `offset_mm` and `thickness_um`.
 pub fn read_stripe(path: &Path) -> Result<Vec<StripeSample>, StripeError> {

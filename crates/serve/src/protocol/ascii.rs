@@ -10,7 +10,7 @@
 //! the speed of the line in mm/s. An answer to `SERVO` has four more: the error that is left in mm and degrees, and its bounds;
 //! empty where there are none. With a rack that has places, the number of the part's place is the last field: 0 for none.
 
-use super::{MAX_MESSAGE, plain};
+use super::{MAX_MESSAGE_CHARS, plain};
 use crate::answer::Answer;
 use crate::request::Request;
 use robot::{Convention, RobotValue};
@@ -25,7 +25,7 @@ pub(super) fn write(answer: &Answer, convention: Convention) -> String {
         answer.boot.to_string(),
         answer.age_or_none().to_string(),
         answer.camera.name().to_owned(),
-        plain(&answer.part, MAX_MESSAGE),
+        plain(&answer.part, MAX_MESSAGE_CHARS),
         answer.number.to_string(),
         answer.flags().to_string(),
         answer.point.to_string(),
@@ -39,8 +39,8 @@ pub(super) fn write(answer: &Answer, convention: Convention) -> String {
         }
         None => fields.extend(convention.names().iter().map(|_| String::new())),
     }
-    fields.push(plain(&answer.problem.reason, MAX_MESSAGE));
-    fields.push(plain(&answer.problem.message, MAX_MESSAGE));
+    fields.push(plain(&answer.problem.reason, MAX_MESSAGE_CHARS));
+    fields.push(plain(&answer.problem.message, MAX_MESSAGE_CHARS));
     if let Some(on_line) = &answer.on_line {
         let count = on_line.count.map(|count| count.to_string());
         fields.extend([

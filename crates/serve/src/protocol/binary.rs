@@ -72,13 +72,14 @@ pub(super) const VERSION: u16 = 1;
 /// Length of a request, bytes.
 pub const REQUEST_BYTES: usize = 20;
 /// Length of a request with as many numbers as possible, those of parts and of their places, and a count, bytes.
-pub(super) const MAX_REQUEST_BYTES: usize = NUMBERS_AT + 4 * (2 * MAX_PARTS + 1) + CHECKSUM_BYTES;
+pub(super) const MAX_REQUEST_BYTES: usize =
+    NUMBERS_OFFSET_BYTES + 4 * (2 * MAX_PARTS + 1) + CHECKSUM_BYTES;
 /// Where the numbers of a request begin.
-const NUMBERS_AT: usize = 12;
+const NUMBERS_OFFSET_BYTES: usize = 12;
 /// Where the flange's pose begins in the request of a robot that servoes.
-const POSE_AT: usize = 16;
+const POSE_OFFSET_BYTES: usize = 16;
 /// Length of the request of a robot that servoes, bytes.
-const SERVO_BYTES: usize = POSE_AT + 8 * MAX_NUMBERS + CHECKSUM_BYTES;
+const SERVO_BYTES: usize = POSE_OFFSET_BYTES + 8 * MAX_NUMBERS + CHECKSUM_BYTES;
 /// Length of an answer, bytes.
 pub const ANSWER_BYTES: usize = 256;
 /// Number of the bytes that an answer about a line has more.
@@ -140,22 +141,22 @@ fn request_in(
     let found = u16_of(frame, 6, order);
     let wrong_length = || BadRequest::Length { found };
     if let Request::Servo(_) = request {
-        let reals = frame[POSE_AT..end].chunks_exact(8);
+        let reals = frame[POSE_OFFSET_BYTES..end].chunks_exact(8);
         let reals: Vec<f64> = reals.map(|bytes| f64_of(bytes, order)).collect();
         let is_whole = frame.len() == SERVO_BYTES;
         let numbers = reals.get(..convention.names().len());
         let numbers = numbers.filter(|_| is_whole).ok_or_else(wrong_length)?;
-        let part = u32_of(frame, NUMBERS_AT, order);
+        let part = u32_of(frame, NUMBERS_OFFSET_BYTES, order);
         let is_start = u16_of(frame, 10, order) != 0;
         return servo_request(part, is_start, numbers, convention);
     }
     let num_numbers = match request {
         Request::Trigger { .. } => usize::from(u16_of(frame, 10, order)),
-        Request::Path { .. } | Request::Part { .. } => (end - NUMBERS_AT) / 4,
+        Request::Path { .. } | Request::Part { .. } => (end - NUMBERS_OFFSET_BYTES) / 4,
         // They ignore the numbers.
         Request::Status | Request::Last | Request::Servo(_) => 0,
     };
-    let numbers = frame[NUMBERS_AT..end].chunks_exact(4);
+    let numbers = frame[NUMBERS_OFFSET_BYTES..end].chunks_exact(4);
     let numbers: Vec<u32> = numbers.map(|bytes| u32_of(bytes, 0, order)).collect();
     let given = numbers.get(..num_numbers).ok_or_else(wrong_length)?;
     let request = match request {
@@ -305,7 +306,7 @@ pub fn request(request: &Request, order: ByteOrder) -> Vec<u8> {
         numbers.extend(count);
     }
     numbers.resize(numbers.len().max(1), 0);
-    let num_bytes = NUMBERS_AT + 4 * numbers.len() + CHECKSUM_BYTES;
+    let num_bytes = NUMBERS_OFFSET_BYTES + 4 * numbers.len() + CHECKSUM_BYTES;
     frame.short(VERSION);
     frame.short(num_bytes as u16);
     frame.short(request.name().1);

@@ -10,7 +10,7 @@
 //! attributes of the pose alone. The pose is an element of EKI's type FRAME; without a pose it is missing.
 
 use super::{
-    MAX_MESSAGE, Parsed,
+    MAX_MESSAGE_CHARS, Parsed,
     ascii::{figure, name_of},
     bad_request::BadRequest,
     is_filler,
@@ -22,7 +22,7 @@ use crate::request::{AskedOrder, Request};
 use robot::Convention;
 
 /// Maximum length of a request, bytes, with room for an XML declaration and line breaks.
-const MAX_REQUEST: usize = 512;
+const MAX_REQUEST_BYTES: usize = 512;
 const END: &[u8] = b"</Robot>";
 
 pub(super) fn parse(bytes: &[u8]) -> Parsed {
@@ -32,18 +32,20 @@ pub(super) fn parse(bytes: &[u8]) -> Parsed {
     };
     let text = &bytes[start..];
     if text[0] != b'<' {
-        let shown = &text[..text.len().min(MAX_REQUEST)];
+        let shown = &text[..text.len().min(MAX_REQUEST_BYTES)];
         return Parsed::bad(BadRequest::not_xml(shown));
     }
-    let searched = &text[..text.len().min(MAX_REQUEST)];
+    let searched = &text[..text.len().min(MAX_REQUEST_BYTES)];
     let end = searched.windows(END.len()).position(|part| part == END);
     match end {
         Some(end) => {
             let end = end + END.len();
             Parsed::read(start + end, request(&text[..end]))
         }
-        None if text.len() < MAX_REQUEST => Parsed::skipped(start),
-        None => Parsed::bad(BadRequest::TooLong { limit: MAX_REQUEST }),
+        None if text.len() < MAX_REQUEST_BYTES => Parsed::skipped(start),
+        None => Parsed::bad(BadRequest::TooLong {
+            limit: MAX_REQUEST_BYTES,
+        }),
     }
 }
 
@@ -244,7 +246,7 @@ pub(super) fn write(answer: &Answer) -> String {
 fn escaped(text: &str) -> String {
     // The sign that begins an entity comes first.
     let entities = ENTITIES.iter().rev();
-    entities.fold(plain(text, MAX_MESSAGE), |text, (letter, entity)| {
+    entities.fold(plain(text, MAX_MESSAGE_CHARS), |text, (letter, entity)| {
         text.replace(*letter, entity)
     })
 }
@@ -485,10 +487,10 @@ mod tests {
             assert_eq!(only(text).expect_err(text).reason(), reason, "{text}");
         }
         let mut endless = b"<Robot>".to_vec();
-        endless.resize(MAX_REQUEST, b' ');
+        endless.resize(MAX_REQUEST_BYTES, b' ');
         let refused = parse(&endless).request.expect("refused");
         assert_eq!(refused.expect_err("too long").reason(), "too_long");
-        assert_eq!(parse(&endless[..MAX_REQUEST - 1]), Parsed::skipped(0));
+        assert_eq!(parse(&endless[..MAX_REQUEST_BYTES - 1]), Parsed::skipped(0));
     }
 
     #[test]

@@ -11,7 +11,7 @@ use crate::request::{AskedOrder, ExpectedNumber, Request};
 use robot::Convention;
 
 /// Maximum length of a line, bytes; every request is shorter.
-const MAX_LINE: usize = 256;
+const MAX_LINE_BYTES: usize = 256;
 /// The word of a request that begins a new run of servoing.
 const START: &[u8] = b"START";
 
@@ -23,11 +23,13 @@ pub(super) fn parse(bytes: &[u8], convention: Convention) -> Parsed {
     let line = &bytes[start..];
     let end = line.iter().position(|byte| matches!(byte, b'\n' | b'\r'));
     match end {
-        Some(end) if end <= MAX_LINE => {
+        Some(end) if end <= MAX_LINE_BYTES => {
             Parsed::read(start + end + 1, request(&line[..end], convention))
         }
-        None if line.len() <= MAX_LINE => Parsed::skipped(start),
-        _ => Parsed::bad(BadRequest::TooLong { limit: MAX_LINE }),
+        None if line.len() <= MAX_LINE_BYTES => Parsed::skipped(start),
+        _ => Parsed::bad(BadRequest::TooLong {
+            limit: MAX_LINE_BYTES,
+        }),
     }
 }
 
@@ -358,7 +360,7 @@ mod tests {
             assert_eq!(why.reason(), reason, "{text:?}");
             assert!(!why.to_string().contains('\u{1b}'), "{why}");
         }
-        let endless = [b'A'; MAX_LINE + 1];
+        let endless = [b'A'; MAX_LINE_BYTES + 1];
         let refused = parse(&endless).request.expect("refused");
         assert_eq!(refused.expect_err("too long").reason(), "too_long");
         assert_eq!(parse(&endless[1..]), Parsed::skipped(0));

@@ -157,7 +157,7 @@ fn is_filler(byte: u8) -> bool {
 }
 
 /// Maximum length of a message in an answer, characters.
-const MAX_MESSAGE: usize = 200;
+const MAX_MESSAGE_CHARS: usize = 200;
 
 /// End of a text that was too long.
 const ELLIPSIS: &str = "...";
@@ -286,8 +286,8 @@ mod tests {
 
     #[test]
     fn a_text_of_an_answer_is_one_line_of_printable_letters() {
-        let shown = plain(&refused().problem.message, MAX_MESSAGE);
-        assert_eq!(shown.len(), MAX_MESSAGE);
+        let shown = plain(&refused().problem.message, MAX_MESSAGE_CHARS);
+        assert_eq!(shown.len(), MAX_MESSAGE_CHARS);
         assert!(shown.starts_with("it scores, <0.5> & \"less\"??than 90 % at 3 deg, ????"));
     }
 

@@ -5,11 +5,11 @@ use super::{client::*, *};
 #[test]
 fn every_protocol_triggers_asks_again_and_fetches_the_path() {
     let service = Service::start(&ALL, ServerSettings::default(), accepted);
-    for place in 0..ALL.len() {
-        let mut robot = service.robot(place);
+    for index in 0..ALL.len() {
+        let mut robot = service.robot(index);
         let has_texts = robot.protocol != "urscript";
         let triggered = robot.ask("TRIGGER");
-        let sequence = place as u32 + 1;
+        let sequence = index as u32 + 1;
         assert_eq!(
             (triggered.verdict, triggered.sequence, triggered.camera),
             (1, sequence, 1)
@@ -63,8 +63,8 @@ fn a_refused_part_and_a_stale_pose_have_no_numbers() {
     };
     let stale = Service::start(&ALL, never_fresh, old);
     for (service, verdict, reason) in [(&service, 2, "low_score"), (&stale, 4, "stale")] {
-        for place in 0..ALL.len() {
-            let mut robot = service.robot(place);
+        for index in 0..ALL.len() {
+            let mut robot = service.robot(index);
             for (word, point) in [
                 ("TRIGGER", 0),
                 ("LAST", 0),
@@ -74,7 +74,7 @@ fn a_refused_part_and_a_stale_pose_have_no_numbers() {
             ] {
                 let reply = robot.ask_point(word, point);
                 assert_eq!(reply.verdict, verdict, "{} {word}", robot.protocol);
-                assert_eq!(reply.sequence, place as u32 + 1);
+                assert_eq!(reply.sequence, index as u32 + 1);
                 assert_no_numbers(&reply);
                 if robot.protocol != "urscript" {
                     assert_eq!(reply.reason, reason);
@@ -110,8 +110,8 @@ fn every_protocol_gives_the_parts_of_a_frame_one_by_one_and_a_trigger_the_first(
     let service = Service::start(&ALL, ServerSettings::default(), several);
     let mut frame = 0;
     let mut next_sequence = 1;
-    for place in 0..ALL.len() {
-        let mut robot = service.robot(place);
+    for index in 0..ALL.len() {
+        let mut robot = service.robot(index);
         let none = robot.ask_point("PART", 1);
         assert_eq!((none.verdict, none.numbers.len()), (7, 0), "not triggered");
         for num_parts in [2, 8, 0, 2] {
@@ -170,8 +170,8 @@ fn a_client_reads_the_path_of_its_own_trigger_or_of_one_that_it_names() {
         assert_eq!((reply.verdict, reply.sequence), (1, sequence), "{reply:?}");
         assert_at(reply, [f64::from(sequence) * 10.0, 250.0, 1500.0]);
     };
-    for place in 0..ALL.len() {
-        let [mut first, mut second, mut third] = [0; 3].map(|_| service.robot(place));
+    for index in 0..ALL.len() {
+        let [mut first, mut second, mut third] = [0; 3].map(|_| service.robot(index));
         let own = first.ask("TRIGGER").sequence;
         let others = second.ask("TRIGGER").sequence;
         assert_eq!(others, own + 1);

@@ -37,9 +37,9 @@ const VERDICTS: [&str; 11] = [
 ];
 const CAMERAS: [&str; 4] = ["opening", "running", "lost", "over"];
 
-fn place_of(word: &str, words: &[&str]) -> u32 {
-    let place = words.iter().position(|other| *other == word);
-    place.unwrap_or_else(|| panic!("{word}")) as u32
+fn index_of(word: &str, words: &[&str]) -> u32 {
+    let index = words.iter().position(|other| *other == word);
+    index.unwrap_or_else(|| panic!("{word}")) as u32
 }
 
 /// A client that speaks one of the protocols.
@@ -147,7 +147,7 @@ pub(crate) fn request(protocol: &str, word: &str, point: u32) -> Vec<u8> {
 /// A request as a binary frame with these numbers.
 pub(crate) fn frame(protocol: &str, word: &str, numbers: &[u32]) -> Vec<u8> {
     let words = ["TRIGGER", "STATUS", "LAST", "PATH", "PART", "SERVO"];
-    let code = place_of(word, &words) + 1;
+    let code = index_of(word, &words) + 1;
     let mut frame = b"PSRQ".to_vec();
     let is_big = protocol == "binary-be";
     let mut put = |value: u32, num_bytes: usize| {
@@ -221,11 +221,11 @@ fn reply_in_fields(line: &str) -> Reply {
     let number = |i: usize| fields[i].parse::<i64>().expect("a whole number");
     let numbers = fields[12..18].iter().filter(|field| !field.is_empty());
     Reply {
-        verdict: place_of(fields[1], &VERDICTS),
+        verdict: index_of(fields[1], &VERDICTS),
         sequence: number(2) as u32,
         boot: number(3) as u32,
         age_ms: number(4),
-        camera: place_of(fields[5], &CAMERAS),
+        camera: index_of(fields[5], &CAMERAS),
         part: fields[6].into(),
         number: number(7) as u32,
         flags: number(8) as u32,

@@ -20,7 +20,7 @@ fn hostile_clients_do_not_disturb_a_good_one() {
     };
     let service = Service::start(&ALL, settings, accepted);
     // They connect before any other client does.
-    let mut good: Vec<Robot> = (0..ALL.len()).map(|place| service.robot(place)).collect();
+    let mut good: Vec<Robot> = (0..ALL.len()).map(|index| service.robot(index)).collect();
     for robot in &mut good {
         assert_eq!(robot.ask("STATUS").verdict, 0);
     }
@@ -66,9 +66,9 @@ fn hostile_clients_do_not_disturb_a_good_one() {
     });
     assert_eq!(service.server.num_inspected(), 200);
     // The places of the hostile clients become free again.
-    for place in 0..ALL.len() {
+    for index in 0..ALL.len() {
         wait_until(|| {
-            let mut robot = service.robot(place);
+            let mut robot = service.robot(index);
             robot.ask("STATUS").verdict != 6
         });
     }
@@ -111,15 +111,15 @@ fn a_thousand_connections_leave_the_good_one_alone_and_get_an_answer() {
 #[test]
 fn of_a_gigabyte_without_an_end_hardly_anything_is_read() {
     let service = Service::start(&ALL, ServerSettings::default(), accepted);
-    for place in 0..ALL.len() {
-        let mut robot = service.robot(place);
+    for index in 0..ALL.len() {
+        let mut robot = service.robot(index);
         let stream = robot.stream.get_mut();
         let chunk = vec![b'A'; 65_536];
         let chunks = (0..16_384).take_while(|_| stream.write_all(&chunk).is_ok());
         let num_taken = chunks.count();
         // What both sides of the connection buffer, and what the server discards so that the client can read why.
         assert!(num_taken < 1024, "{}: {num_taken}", robot.protocol);
-        assert_eq!(service.robot(place).ask("TRIGGER").verdict, 1);
+        assert_eq!(service.robot(index).ask("TRIGGER").verdict, 1);
     }
 }
 
@@ -152,10 +152,10 @@ fn a_thousand_silent_connections_make_room_for_others() {
         }
     }
     // Until the silent connections have been there for a moment, there is no place.
-    let connected = |place| {
+    let connected = |index| {
         let until = Instant::now() + PATIENCE;
         loop {
-            let mut robot = service.robot(place);
+            let mut robot = service.robot(index);
             if robot.ask("LAST").verdict != 6 {
                 return robot;
             }
@@ -163,9 +163,9 @@ fn a_thousand_silent_connections_make_room_for_others() {
             thread::sleep(Duration::from_millis(20));
         }
     };
-    for place in 0..ALL.len() {
-        let reply = connected(place).ask("TRIGGER");
-        assert_eq!((reply.verdict, reply.sequence), (1, place as u32 + 2));
+    for index in 0..ALL.len() {
+        let reply = connected(index).ask("TRIGGER");
+        assert_eq!((reply.verdict, reply.sequence), (1, index as u32 + 2));
     }
     assert_eq!(kept.ask("TRIGGER").sequence, ALL.len() as u32 + 2);
     // Whoever has sent a request keeps its place.
@@ -186,7 +186,7 @@ fn a_bad_request_is_answered_with_its_reason_and_the_connection_closed() {
     version[4] = 9;
     let mut checksum = request("binary-be", "TRIGGER", 0);
     checksum[19] ^= 1;
-    for (place, bytes, reason) in [
+    for (index, bytes, reason) in [
         (0, b"START\n".to_vec(), "unknown_request"),
         (0, vec![b'A'; 5000], "too_long"),
         (0, b"TRIG".to_vec(), "incomplete"),
@@ -218,7 +218,7 @@ fn a_bad_request_is_answered_with_its_reason_and_the_connection_closed() {
         ),
         (4, b"SERVO 3 p[nan,0,0,0,0,0]\n".to_vec(), "bad_pose"),
     ] {
-        let mut robot = service.robot(place);
+        let mut robot = service.robot(index);
         robot.send(&bytes);
         let reply = robot.reply();
         assert_eq!(reply.verdict, 7, "{reason}");
@@ -228,7 +228,7 @@ fn a_bad_request_is_answered_with_its_reason_and_the_connection_closed() {
         }
         assert!(robot.is_let_go(), "{reason}");
         // The client may connect again.
-        assert_eq!(service.robot(place).ask("LAST").verdict, 0);
+        assert_eq!(service.robot(index).ask("LAST").verdict, 0);
     }
     assert_eq!(service.server.num_inspected(), 0);
     service.wait_for(|news| matches!(news, ClientNews::BadRequest(_)));
@@ -253,8 +253,8 @@ fn a_server_that_moves_no_robot_says_so_and_the_connection_stays_open() {
 #[test]
 fn a_request_in_pieces_and_several_at_once_are_answered_one_by_one() {
     let service = Service::start(&ALL, ServerSettings::default(), accepted);
-    for place in 0..ALL.len() {
-        let mut robot = service.robot(place);
+    for index in 0..ALL.len() {
+        let mut robot = service.robot(index);
         let protocol = robot.protocol.clone();
         let before = robot.ask("LAST").sequence;
         for byte in request(&protocol, "TRIGGER", 0) {

@@ -102,8 +102,8 @@ impl Service {
         }
     }
 
-    fn robot(&self, place: usize) -> Robot {
-        Robot::connect(self.addresses[place], ALL[place])
+    fn robot(&self, index: usize) -> Robot {
+        Robot::connect(self.addresses[index], ALL[index])
     }
 
     fn wait_for(&self, news: impl Fn(&ClientNews) -> bool) {

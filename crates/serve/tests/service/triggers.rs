@@ -45,7 +45,7 @@ fn triggers_wait_in_their_order_and_a_status_does_not() {
         accepted(number)
     };
     let service = Service::start(&["ascii=0"], ServerSettings::default(), find);
-    let [mut first, mut second, mut other] = [0; 3].map(|place| service.robot(place));
+    let [mut first, mut second, mut other] = [0; 3].map(|index| service.robot(index));
     first.send(b"TRIGGER\n");
     assert_eq!(has_begun.recv_timeout(PATIENCE), Ok(1));
     second.send(b"TRIGGER\n");
@@ -134,7 +134,7 @@ fn who_waits_when_the_service_ends_is_told_so() {
         accepted(number)
     };
     let mut service = Service::start(&["ascii=0"], ServerSettings::default(), find);
-    let [mut first, mut second] = [0; 2].map(|place| service.robot(place));
+    let [mut first, mut second] = [0; 2].map(|index| service.robot(index));
     first.send(b"TRIGGER\n");
     assert_eq!(has_begun.recv_timeout(PATIENCE), Ok(1));
     second.send(b"TRIGGER\n");
@@ -159,7 +159,7 @@ fn triggers_of_clients_that_have_gone_are_not_inspected() {
         accepted(number)
     };
     let service = Service::start(&ALL, ServerSettings::default(), find);
-    let [mut first, mut second, mut half] = [0; 3].map(|place| service.robot(place));
+    let [mut first, mut second, mut half] = [0; 3].map(|index| service.robot(index));
     first.send(b"TRIGGER\n");
     assert_eq!(has_begun.recv_timeout(PATIENCE), Ok(1));
     for i in 0..10 {

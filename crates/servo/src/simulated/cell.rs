@@ -195,11 +195,11 @@ const ARM_BACK_M: f64 = -1.35;
 /// Number of frames that a target is recorded from.
 const NUM_RECORDED: u64 = 10;
 /// Separates these random numbers from others with the same seed.
-const STREAM: u64 = 0x5e24_05e2_405e_2405;
+const RANDOM_STREAM: u64 = 0x5e24_05e2_405e_2405;
 /// Most starts that are drawn.
 const MAX_STARTS: usize = 400;
 /// Least distance of the part from the edge of the picture at the start, pixels.
-const PICTURE_MARGIN: f64 = 4.0;
+const MIN_EDGE_DISTANCE_PIXELS: f64 = 4.0;
 
 impl<'a> SimulatedCell<'a> {
     /// Arranges the cell around the part of an enrolled library.
@@ -210,7 +210,7 @@ impl<'a> SimulatedCell<'a> {
         let Some((reference, middle)) = with_middle else {
             return Err(SimulatedCellError::NotEnrolled { part: name });
         };
-        let mut random = Pcg64::seed_from_u64(setup.seed ^ STREAM);
+        let mut random = Pcg64::seed_from_u64(setup.seed ^ RANDOM_STREAM);
         let scan = scan_of(setup.kind, Side::Left, setup.seed);
         let robot_from_part = scan.base_from_model * enrolment_pose().inverse();
         let flange_from_camera = flange_from_camera();
@@ -343,7 +343,8 @@ impl<'a> SimulatedCell<'a> {
             let pixel = camera.pixel_of(&(camera_from_model * p.cast::<f64>()));
             pixel.is_some_and(|(u, v)| {
                 let inside = |x: f64, size: usize| {
-                    (PICTURE_MARGIN..=size as f64 - 1.0 - PICTURE_MARGIN).contains(&x)
+                    (MIN_EDGE_DISTANCE_PIXELS..=size as f64 - 1.0 - MIN_EDGE_DISTANCE_PIXELS)
+                        .contains(&x)
                 };
                 inside(u, camera.width) && inside(v, camera.height)
             })
@@ -385,7 +386,7 @@ impl<'a> SimulatedCell<'a> {
         seed: u64,
     ) -> Option<DepthFrame> {
         let is_lost = self.setup.disturbance == Disturbance::FramesLost
-            && Pcg64::seed_from_u64(seed ^ STREAM).random_bool(0.1);
+            && Pcg64::seed_from_u64(seed ^ RANDOM_STREAM).random_bool(0.1);
         if is_lost {
             return None;
         }

@@ -50,7 +50,7 @@ pub struct RunResult {
 }
 
 /// Ends a run that neither arrives nor stops; the servo's own longest time must be shorter.
-const LONGEST: Duration = Duration::from_secs(200);
+const MAX_DURATION: Duration = Duration::from_secs(200);
 
 /// A run so far.
 pub(super) struct Observed<'c, 'a> {
@@ -133,7 +133,7 @@ pub fn run(cell: &SimulatedCell<'_>, params: &ServoParams) -> Result<RunResult, 
     let mut observed = Observed::new(cell);
     let mut is_usable = true;
     let mut end = Step::Stop(crate::StopReason::ByPerson);
-    while arm.state().at < LONGEST {
+    while arm.state().at < MAX_DURATION {
         arm.advance();
         let state = arm.state();
         let now = state.at;

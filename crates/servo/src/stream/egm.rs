@@ -12,7 +12,7 @@ use robot::{Convention, arm::Joints};
 
 const NAME: &str = "EGM";
 /// A packet with every field is below 1 KiB.
-const MAX_PACKET: usize = 4096;
+const MAX_PACKET_BYTES: usize = 4096;
 
 // The messages, with the fields that are used. All are optional here, so that a missing number is not read as 0.
 
@@ -145,7 +145,7 @@ impl Stream for Egm {
             protocol: NAME,
             why,
         };
-        if packet.len() > MAX_PACKET {
+        if packet.len() > MAX_PACKET_BYTES {
             return Err(unreadable(format!("it has {} bytes", packet.len())));
         }
         let robot = Robot::decode(packet).map_err(|error| unreadable(error.to_string()))?;

@@ -51,10 +51,11 @@ pub trait Stream {
 }
 
 /// Why bytes are not a report.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, Advice)]
 pub enum StreamError {
     /// They are nothing of this protocol.
     #[error("not a packet of {protocol}: {why}")]
+    #[advice = "Check which protocol the controller's program uses, and that nothing else sends to this port"]
     Unreadable {
         /// The protocol.
         protocol: &'static str,
@@ -63,6 +64,7 @@ pub enum StreamError {
     },
     /// The packet lacks a value that is needed.
     #[error("a packet of {protocol} lacks {what}")]
+    #[advice = "Set up {protocol} on the controller as the guide shows (docs/guide/servo.md)"]
     Lacks {
         /// The protocol.
         protocol: &'static str,
@@ -71,6 +73,7 @@ pub enum StreamError {
     },
     /// It came before, or late.
     #[error("packet {number} came after packet {last}")]
+    #[advice = "Connect the controller directly, or over a switch of its own"]
     OutOfOrder {
         /// Its number.
         number: u64,
@@ -79,29 +82,11 @@ pub enum StreamError {
     },
     /// The controller does not do what it is asked.
     #[error("the controller refuses {what}")]
+    #[advice = "Update the controller's software, and end other programs that use the same registers"]
     Refused {
         /// What.
         what: String,
     },
-}
-
-impl Advice for StreamError {
-    fn advice(&self) -> String {
-        match self {
-            Self::Unreadable { .. } => {
-                "Check which protocol the controller's program uses, and that nothing else sends to this port".into()
-            }
-            Self::Lacks { protocol, .. } => {
-                format!("Set up {protocol} on the controller as the guide shows (docs/guide/servo.md)")
-            }
-            Self::OutOfOrder { .. } => {
-                "Connect the controller directly, or over a switch of its own".into()
-            }
-            Self::Refused { .. } => {
-                "Update the controller's software, and end other programs that use the same registers".into()
-            }
-        }
-    }
 }
 
 /// The pose as seven or six numbers of a maker's convention; an error if they are none.

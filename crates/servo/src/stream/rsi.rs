@@ -18,7 +18,7 @@ use robot::arm::{Joints, PlacedArm};
 
 const NAME: &str = "RSI";
 /// Packets with every element that RSI knows are below 4 KiB.
-const MAX_PACKET: usize = 8192;
+const MAX_PACKET_BYTES: usize = 8192;
 
 /// The side of the sensor.
 #[derive(Clone, Debug)]
@@ -108,7 +108,7 @@ impl Packet {
             protocol: NAME,
             why,
         };
-        if packet.len() > MAX_PACKET {
+        if packet.len() > MAX_PACKET_BYTES {
             return Err(unreadable(format!("it has {} bytes", packet.len())));
         }
         let mut reader = Reader::from_reader(packet);

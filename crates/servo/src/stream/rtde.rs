@@ -11,8 +11,8 @@ use robot::Convention;
 
 const NAME: &str = "RTDE";
 /// A package's length, with its head.
-const MAX_PACKAGE: usize = 4096;
-const HEAD: usize = 3;
+const MAX_PACKAGE_BYTES: usize = 4096;
+const HEADER_BYTES: usize = 3;
 
 /// What is read: after each name, the type that the controller gives it, and its bytes.
 pub(crate) const OUTPUTS: [(&str, &str, usize); 5] = [
@@ -34,7 +34,7 @@ pub(crate) const INPUTS: [(&str, &str, usize); 8] = [
     ("input_double_register_29", "DOUBLE", 8),
 ];
 /// Reports per second.
-const FREQUENCY: f64 = 125.0;
+const REPORT_RATE_HZ: f64 = 125.0;
 /// `PLAYING`.
 pub(crate) const PLAYING: u32 = 2;
 /// `NORMAL` and `REDUCED`.
@@ -87,7 +87,7 @@ impl Rtde {
                     return Err(refused("version 2 of RTDE"));
                 }
                 let names = OUTPUTS.map(|(name, ..)| name).join(",");
-                let wanted = [&FREQUENCY.to_be_bytes(), names.as_bytes()].concat();
+                let wanted = [&REPORT_RATE_HZ.to_be_bytes(), names.as_bytes()].concat();
                 self.next(Stage::Outputs, b'O', &wanted);
             }
             (Stage::Outputs, b'O') => {
@@ -168,11 +168,11 @@ impl Stream for Rtde {
         self.rest.extend_from_slice(bytes);
         let mut newest = None;
         loop {
-            let Some(head) = self.rest.get(..HEAD) else {
+            let Some(head) = self.rest.get(..HEADER_BYTES) else {
                 return Ok(newest);
             };
             let length = usize::from(u16::from_be_bytes([head[0], head[1]]));
-            if !(HEAD..=MAX_PACKAGE).contains(&length) {
+            if !(HEADER_BYTES..=MAX_PACKAGE_BYTES).contains(&length) {
                 return Err(StreamError::Unreadable {
                     protocol: NAME,
                     why: format!("a package of {length} bytes"),
@@ -182,7 +182,7 @@ impl Stream for Rtde {
                 return Ok(newest);
             }
             let package: Vec<u8> = self.rest.drain(..length).collect();
-            newest = self.take(package[2], &package[HEAD..])?.or(newest);
+            newest = self.take(package[2], &package[HEADER_BYTES..])?.or(newest);
         }
     }
 
@@ -204,7 +204,7 @@ impl Stream for Rtde {
 
 /// A package with its head.
 pub(crate) fn package(kind: u8, payload: &[u8]) -> Vec<u8> {
-    let length = u16::try_from(HEAD + payload.len()).expect("our packages are short");
+    let length = u16::try_from(HEADER_BYTES + payload.len()).expect("our packages are short");
     [&length.to_be_bytes(), &[kind][..], payload].concat()
 }
 

@@ -308,7 +308,7 @@ fn numbers(ui: &mut Ui, session: &Session) {
     };
     heading(ui, &text!("robot-part-numbers"));
     let parts = library.parts.iter().map(|part| {
-        let number = library.numbers.of(&part.name);
+        let number = library.numbers.number_of(&part.name);
         let number = number.map_or_else(|| "–".into(), |number| number.to_string());
         format!("{number} {}", part.name)
     });

@@ -44,35 +44,28 @@ struct OpenedCamera {
 }
 
 /// Why there is no frame.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Advice)]
 pub enum NoFrame {
     /// The source reported an error.
     #[error(transparent)]
+    #[advice(transparent)]
     Capture(Arc<CaptureError>),
     /// A recording has no more frames.
     #[error("{}", no_more_frames(title))]
+    #[advice = "Capture again to start at its first frame"]
     AtItsEnd {
         /// Title of the recording.
         title: String,
     },
     /// The request was cancelled.
     #[error("the frame is no longer needed")]
+    #[advice = "Capture again"]
     Cancelled,
 }
 
 /// The source of this title has ended.
 pub(crate) fn no_more_frames(title: &str) -> Message {
     Message::new("no-more-frames").with("source", title)
-}
-
-impl Advice for NoFrame {
-    fn advice(&self) -> String {
-        match self {
-            Self::Capture(error) => error.advice(),
-            Self::AtItsEnd { .. } => "Capture again to start at its first frame".into(),
-            Self::Cancelled => "Capture again".into(),
-        }
-    }
 }
 
 /// Time to wait for a frame before checking for cancellation again.

@@ -16,12 +16,9 @@ use super::{
     scene_figure::{SceneFigure, SceneFigureInput, deviations, deviations_at},
     source::{Captured, Origin, SceneOrScan, SceneSource},
 };
-use crate::{
-    inspection::{
-        scan::{FuseError, FusedShots, Steps, Then, fuse, marked},
-        source::{ScanOrder, ScanRequest},
-    },
-    language::is_called_by_name,
+use crate::inspection::{
+    scan::{FuseError, FusedShots, Steps, Then, fuse, marked},
+    source::{ScanOrder, ScanRequest},
 };
 use capture::CaptureWarning;
 use geometry::{cloud::PointCloud, rigid::RigidTransform};
@@ -425,9 +422,10 @@ impl FinishedInspection {
             scan,
         } = self;
         let best = inspection.best_reference(library);
-        // Whatever is not called by its name is not compared with another part.
-        let named = best.filter(|_| is_called_by_name(&inspection.verdict, &recipe.accept));
-        let deviations = named.map_or_else(Vec::new, |reference| match &scan {
+        // What is not of its type is not compared with the part.
+        let found = inspection.verdict.identification(&recipe.accept);
+        let compared = best.filter(|_| found.is_of_type());
+        let deviations = compared.map_or_else(Vec::new, |reference| match &scan {
             Some(found) => {
                 let num = found.fused.figure.positions.len();
                 deviations_at(num, found.part(), &inspection, reference)
@@ -437,7 +435,7 @@ impl FinishedInspection {
         let seen_by_all = scan
             .as_ref()
             .map(|found| PointCloud::from_points(found.part().map(|(_, point)| point)));
-        let middle = best.and_then(Reference::middle);
+        let middle = inspection.middle(library);
         let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
         // No stand-off or path for a part that was not recognised.
         let sprayed = best.zip(pose).filter(|_| inspection.verdict.is_accepted());
@@ -459,8 +457,8 @@ impl FinishedInspection {
             scene: &scene,
             scan: scan.as_ref().map(|found| &found.fused.figure),
             inspection: &inspection,
-            reference: named,
-            middle: named.and(middle),
+            reference: compared,
+            middle: compared.and(middle),
             deviations: &deviations,
             stand_off: stand_off.as_ref().and_then(|found| found.as_ref().ok()),
             spray: spray.as_ref(),

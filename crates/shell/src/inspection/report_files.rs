@@ -259,6 +259,9 @@ pub fn report(
     let all: Vec<&Inspection> = parts.iter().map(|part| &part.inspection).collect();
     let stages = frame_pictures(&inspected.scene, &all, selected);
     let mut out = ReportFolder::make(folder).map_err(problem)?;
+    // The row first: it fits where pictures do not.
+    let table = out.csv(report.robot.convention);
+    let aside = append_csv(&table, report).map_err(|error| UserError::of(&error))?;
     let path = out.write(&name, line, &stages).map_err(problem)?;
     let view = shot.and_then(|shot| on_paper(shot).take().ok());
     let view = view.map(|view| DynamicImage::from(view).into_rgb8());
@@ -269,14 +272,10 @@ pub fn report(
     };
     let pdf = pose_pdf(report, &pictures);
     let files = [("json", report.to_json().into_bytes()), ("pdf", pdf)];
-    let written = out.write_pose(&name, &files).map_err(problem)?;
-    let table = out.csv(report.robot.convention);
-    let aside = append_csv(&table, report).map_err(|error| UserError::of(&error))?;
-    let names: Vec<String> = [&path]
-        .into_iter()
-        .chain(&written)
-        .map(|path| file_name(path))
-        .collect();
+    let mut written = vec![path];
+    out.write_pose(&name, &files, &mut written)
+        .map_err(problem)?;
+    let names: Vec<String> = written.iter().map(|path| file_name(path)).collect();
     let (files, table) = (names.join(", "), file_name(&table));
     let folder = folder.display().to_string();
     Ok(match aside {

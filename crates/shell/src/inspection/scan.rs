@@ -93,19 +93,40 @@ impl FusedShots {
 }
 
 /// Why shots cannot be put together.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Advice)]
 pub enum FuseError {
     /// The frames or their poses cannot be read.
     #[error(transparent)]
+    #[advice(match _0 {
+        ScanFramesError::NoPoses => {
+            "Choose the file of the poses; its form is described by partsight help scan".into()
+        }
+        ScanFramesError::Poses(FramePosesError::Missing { .. }) => {
+            "Choose a file that has them, or add them to this one and open the scan again".into()
+        }
+        ScanFramesError::Poses(FramePosesError::NoCalibration { .. } | FramePosesError::CameraIsFixed { .. }) => {
+            "Load the calibration of the camera on the flange (Robot…, B), then open the scan again".into()
+        }
+        other => other.advice(),
+    })]
     Frames(#[from] ScanFramesError),
     /// The shots in the history cannot be read.
     #[error(transparent)]
+    #[advice(transparent)]
     Kept(#[from] FrameError),
     /// The shots do not fit together.
     #[error(transparent)]
+    #[advice(match _0 {
+        ScanError::TooFewShots { found: 1 } => {
+            "Open a folder with frames from other sides too, or open this frame by itself (Ctrl O)".into()
+        }
+        ScanError::TooFewShots { .. } => "Open the folder that holds the frames".into(),
+        other => other.advice(),
+    })]
     Scan(#[from] ScanError),
     /// Another shot has the same name.
     #[error("{name} is among the shots already")]
+    #[advice = "Rename the file and its entry among the poses"]
     NameTaken {
         /// Name of both shots.
         name: String,
@@ -128,30 +149,6 @@ impl FuseError {
             self,
             Self::Frames(ScanFramesError::Cancelled) | Self::Scan(ScanError::Cancelled)
         )
-    }
-}
-
-impl Advice for FuseError {
-    fn advice(&self) -> String {
-        match self {
-            Self::Frames(ScanFramesError::NoPoses) => {
-                "Choose the file of the poses; its form is described by partsight help scan".into()
-            }
-            Self::Frames(ScanFramesError::Poses(FramePosesError::Missing { .. })) => {
-                "Choose a file that has them, or add them to this one and open the scan again".into()
-            }
-            Self::Frames(ScanFramesError::Poses(
-                FramePosesError::NoCalibration { .. } | FramePosesError::CameraIsFixed { .. },
-            )) => "Load the calibration of the camera on the flange (Robot…, B), then open the scan again".into(),
-            Self::Scan(ScanError::TooFewShots { found: 1 }) => {
-                "Open a folder with frames from other sides too, or open this frame by itself (Ctrl O)".into()
-            }
-            Self::Scan(ScanError::TooFewShots { .. }) => "Open the folder that holds the frames".into(),
-            Self::Frames(error) => error.advice(),
-            Self::Kept(error) => error.advice(),
-            Self::Scan(error) => error.advice(),
-            Self::NameTaken { .. } => "Rename the file and its entry among the poses".into(),
-        }
     }
 }
 

@@ -310,30 +310,25 @@ pub struct Captured {
 }
 
 /// Why a source delivered no scene.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Advice)]
 pub enum SceneError {
     /// The file cannot be read as a capture.
     #[error(transparent)]
+    #[advice(match _0 {
+        CaptureError::MeshIsNoCapture { .. } => {
+            "Open it in the Enrol workspace (2) to enrol it as a reference".into()
+        }
+        other => other.advice(),
+    })]
     File(#[from] CaptureError),
     /// The camera delivered no frame.
     #[error(transparent)]
+    #[advice(transparent)]
     Camera(#[from] NoFrame),
     /// The frame in the history cannot be read.
     #[error(transparent)]
+    #[advice(transparent)]
     Kept(#[from] FrameError),
-}
-
-impl Advice for SceneError {
-    fn advice(&self) -> String {
-        match self {
-            Self::File(CaptureError::MeshIsNoCapture { .. }) => {
-                "Open it in the Enrol workspace (2) to enrol it as a reference".into()
-            }
-            Self::File(error) => error.advice(),
-            Self::Camera(error) => error.advice(),
-            Self::Kept(error) => error.advice(),
-        }
-    }
 }
 
 impl From<SceneError> for TaskError {

@@ -345,7 +345,7 @@ impl State {
         };
         let stands_there = shown.inspected.inspection.segmentation.part.is_ok();
         let mut parts = shown.parts.iter();
-        let cell = match EmptyCell::of(&shown.inspected.scene) {
+        let cell = match EmptyCell::from_scene(&shown.inspected.scene) {
             _ if parts.any(|part| part.inspection.verdict.is_accepted()) => {
                 let hangs_there = Notice::look(
                     text!("shell-cell-not-empty"),

@@ -438,7 +438,9 @@ mod tests {
                 panic!("{event:?}");
             };
             match change {
-                TraceChange::Fill(trace) => (hung, format!("+{}", trace.serial)),
+                TraceChange::Fill(trace) | TraceChange::Set(trace) => {
+                    (hung, format!("+{}", trace.serial))
+                }
                 TraceChange::ClearSerial(serial) => (hung, format!("-{serial}")),
             }
         });

@@ -1,16 +1,15 @@
 //! The table of orders in use and its file, what is expected without one, and why that may not be known.
 
 use std::{
-    fs,
     path::{Path, PathBuf},
     sync::Arc,
     thread,
-    time::{Duration, SystemTime},
+    time::Duration,
 };
 
 use geometry::error::Advice as _;
 use inspection::pipeline::{Expected, ExpectedError, ExpectedPart};
-use records::orders::{OrderError, Orders, OrdersError};
+use records::orders::{OrderError, Orders, OrdersError, OrdersFile, TableRead};
 use ui::{
     language::{advised, described, text},
     task::{Task, TaskContext, TaskError, TaskRunner},
@@ -34,11 +33,8 @@ pub struct Expecting {
 pub(super) struct OrderTable {
     pub(super) path: PathBuf,
     /// `None` until it is read.
-    pub(super) content: Option<TableContent>,
+    pub(super) content: Option<TableRead>,
 }
-
-/// The table, or why it cannot be read.
-pub(super) type TableContent = Result<Arc<Orders>, Arc<OrdersError>>;
 
 /// An action on what is expected.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -76,15 +72,15 @@ impl OrderTable {
 }
 
 /// True if two readings of a table say the same.
-fn is_same(one: &TableContent, other: &TableContent) -> bool {
+fn is_same(one: &TableRead, other: &TableRead) -> bool {
     match (one, other) {
-        (Ok(one), Ok(other)) => one == other,
+        (Ok(one), Ok(other)) => Arc::ptr_eq(one, other) || one == other,
         (Err(one), Err(other)) => one.to_string() == other.to_string(),
         _ => false,
     }
 }
 
-fn read(path: &Path) -> TableContent {
+fn read(path: &Path) -> TableRead {
     Orders::read(path).map(Arc::new).map_err(Arc::new)
 }
 
@@ -150,13 +146,11 @@ impl NotKnown {
 const TURN: Duration = Duration::from_millis(100);
 /// Number of turns between two looks at the file.
 const NUM_TURNS: usize = 10;
-/// Some disks date their files in steps of 2 s: a younger file may have changed again.
-const SETTLED: Duration = Duration::from_secs(3);
 
 /// Watches the file of the table in use.
 #[derive(Debug)]
 pub struct OrdersWatch {
-    task: Task<TableContent>,
+    task: Task<TableRead>,
     path: Option<PathBuf>,
 }
 
@@ -175,7 +169,7 @@ impl OrdersWatch {
     }
 
     /// Watches this table from now on. Returns its content once it has changed.
-    pub(super) fn poll(&mut self, table: Option<&OrderTable>) -> Option<TableContent> {
+    pub(super) fn poll(&mut self, table: Option<&OrderTable>) -> Option<TableRead> {
         let path = table.map(|table| &table.path);
         if self.path.as_ref() != path {
             self.path = path.cloned();
@@ -192,23 +186,16 @@ impl OrdersWatch {
 
 fn watch(
     path: &Path,
-    mut known: Option<TableContent>,
-    context: &TaskContext<TableContent>,
-) -> Result<TableContent, TaskError> {
-    let mut before = None;
+    mut known: Option<TableRead>,
+    context: &TaskContext<TableRead>,
+) -> Result<TableRead, TaskError> {
+    let mut file = OrdersFile::at(path);
     loop {
-        let found = fs::metadata(path).ok();
-        let now = found.and_then(|found| Some((found.len(), found.modified().ok()?)));
-        let is_settled =
-            |(_, changed): &(u64, SystemTime)| changed.elapsed().is_ok_and(|age| age > SETTLED);
-        if now != before || !now.as_ref().is_some_and(is_settled) {
-            let content = read(path);
-            if !known.as_ref().is_some_and(|known| is_same(known, &content)) {
-                known = Some(content.clone());
-                context.latest(content);
-            }
+        let content = file.table();
+        if !known.as_ref().is_some_and(|known| is_same(known, &content)) {
+            known = Some(content.clone());
+            context.latest(content);
         }
-        before = now;
         for _ in 0..NUM_TURNS {
             context.check()?;
             thread::sleep(TURN);

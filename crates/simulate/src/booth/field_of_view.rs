@@ -118,8 +118,8 @@ impl FieldOfView {
 impl Border {
     /// Returns the distance inside the border in pixels, with the raggedness at position `along`.
     fn distance(&self, u: f64, v: f64, along: f64) -> f64 {
-        let place = (along.max(0.0) as usize).min(self.ragged.len() - 1);
-        self.across[0] * u + self.across[1] * v + self.offset - self.ragged[place]
+        let index = (along.max(0.0) as usize).min(self.ragged.len() - 1);
+        self.across[0] * u + self.across[1] * v + self.offset - self.ragged[index]
     }
 }
 

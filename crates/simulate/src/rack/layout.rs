@@ -138,7 +138,7 @@ fn draw_bodies(setup: &RackSetup) -> Vec<Body> {
     let first_pair = random.random_range(0..=num_places % 2);
     let mut bodies: Vec<Body> = Vec::with_capacity(num_places);
     let mut empty_width = 0.0;
-    for (place, &object) in setup.places.iter().enumerate() {
+    for (index, &object) in setup.places.iter().enumerate() {
         if object == SimulatedObject::Nothing {
             empty_width += random.random_range(EMPTY_M);
             continue;
@@ -173,10 +173,10 @@ fn draw_bodies(setup: &RackSetup) -> Vec<Body> {
             hidden_share: random.random_range(HIDDEN),
             clear_depth: random.random_range(IN_FRONT_M),
         };
-        let is_second_of_pair = place > first_pair && (place - first_pair) % 2 == 1;
+        let is_second_of_pair = index > first_pair && (index - first_pair) % 2 == 1;
         let overlaps = setup.spacing == Spacing::Overlapping
             && is_second_of_pair
-            && setup.places[place - 1] != SimulatedObject::Nothing;
+            && setup.places[index - 1] != SimulatedObject::Nothing;
         let row_from_part = down * turn;
         bodies.push(Body {
             object,

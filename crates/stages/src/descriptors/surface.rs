@@ -41,26 +41,17 @@ pub struct DescribedSurface {
 }
 
 /// Reason why a cloud has no surface to describe.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error, Advice)]
 pub enum SurfaceError {
     /// Almost no points are left.
     #[error("{found} points are left of the part once it is thinned, at least {needed} are needed")]
+    #[advice = "Move the camera nearer to the part, check that the cloud is in metres, and capture again"]
     TooFewPoints {
         /// Number of points after thinning.
         found: usize,
         /// Minimum number of points.
         needed: usize,
     },
-}
-
-impl Advice for SurfaceError {
-    fn advice(&self) -> String {
-        match self {
-            Self::TooFewPoints { .. } => {
-                "Move the camera nearer to the part, check that the cloud is in metres, and capture again".into()
-            }
-        }
-    }
 }
 
 /// Minimum number of points of a surface: a normal needs three, a descriptor counts dozens.

@@ -181,8 +181,8 @@ fn highest_apart(correlation: &[Complex<f32>], twice_around: &mut Vec<i32>) -> [
         let peak = |w: &[i32]| if w[1] >= w[0].max(w[2]) { w[1] } else { -1 };
         let mut peaks = apart.map(peak);
         let highest = peaks.clone().fold(0, i32::max);
-        let place = peaks.position(|strength| strength == highest);
-        place.map(|place| (behind + 1 + place) % n)
+        let index = peaks.position(|strength| strength == highest);
+        index.map(|index| (behind + 1 + index) % n)
     });
     [first, second]
 }

@@ -93,9 +93,9 @@ impl ReferenceBorder {
         // A counting sort.
         let (mut pairs, mut next) = (framed.clone(), bins.clone());
         for pair in framed {
-            let place = &mut next[pair.pair.bin()];
-            pairs[*place as usize] = pair;
-            *place += 1;
+            let index = &mut next[pair.pair.bin()];
+            pairs[*index as usize] = pair;
+            *index += 1;
         }
         Self {
             points,

@@ -128,7 +128,7 @@ fn go_on(watch: &dyn ScanObserver, next: ScanStep) -> Result<(), ScanError> {
 fn prepare(shot: &Shot, params: &ScanParams) -> Result<ScannedShot, ScanError> {
     let name = || shot.name.clone();
     let num_finite = shot.scene.cloud.finite().take(LEAST_READINGS).count();
-    let surface = ShotSurface::of(&shot.scene);
+    let surface = ShotSurface::from_scene(&shot.scene);
     let too_few = |found| ScanError::TooFewReadings {
         name: name(),
         found,

@@ -6,16 +6,21 @@ use geometry::{error::Advice, units::Metres};
 pub(super) const MAX_SHOTS: usize = 64;
 
 /// Why frames cannot be assembled into a scan.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error, Advice)]
 pub enum ScanError {
     /// There is one frame, or none.
     #[error("a scan needs at least 2 frames, found {found}")]
+    #[advice(match found {
+        1 => "Add frames from other sides, or use the one frame without --scan",
+        _ => "Give the folder that holds the frames",
+    })]
     TooFewShots {
         /// Frames given.
         found: usize,
     },
     /// There are more frames than `seen_by` has bits.
     #[error("a scan takes at most {MAX_SHOTS} frames, found {found}")]
+    #[advice = "Leave out frames that show the same as others"]
     TooManyShots {
         /// Frames given.
         found: usize,
@@ -24,12 +29,14 @@ pub enum ScanError {
     #[error(
         "{name}: the points have no rows and columns, so it is not known what the camera saw as empty"
     )]
+    #[advice = "Record depth images, or clouds that keep the camera's rows and columns (organised PCD)"]
     NoPicture {
         /// The name of the frame.
         name: String,
     },
     /// A frame has too few readings to be registered.
     #[error("{name}: the frame has {found} usable readings, at least {needed} are needed")]
+    #[advice = "Leave the frame out, or capture it again with the camera uncovered and 0.6 to 3 m from the part"]
     TooFewReadings {
         /// The name of the frame.
         name: String,
@@ -40,6 +47,8 @@ pub enum ScanError {
     },
     /// No two frames fit together.
     #[error("no two of the {found} frames agree: {}", names.join(", "))]
+    #[advice = "Check that each pose belongs to its frame, that they are poses of the camera in metres (for poses of the flange give \
+               base_from_flange), and that the part stood still"]
     NothingAgrees {
         /// Frames given.
         found: usize,
@@ -53,6 +62,7 @@ pub enum ScanError {
         agree.join(", "),
         others.join(", ")
     )]
+    #[advice = "Check that each pose belongs to its frame and that all frames show the same part, which stood still; leave the wrong frames out, or capture them again"]
     NoMajority {
         /// Names of the frames that fit together.
         agree: Vec<String>,
@@ -65,6 +75,7 @@ pub enum ScanError {
         these.join(", "),
         others.join(", ")
     )]
+    #[advice = "Add frames from between that show surface of both, or let the floor or the hanger be in view of all of them; or scan each side by itself"]
     Apart {
         /// Names of the frames that show one surface.
         these: Vec<String>,
@@ -79,6 +90,8 @@ pub enum ScanError {
         share * 100.0,
         apart.map_or_else(String::new, |apart| format!("; they fit together if one is moved by {apart}"))
     )]
+    #[advice = "Check that each pose belongs to its frame and that nothing moved between the frames; leave the wrong frame out, or add one \
+               that shows the same edges and so tells which it is"]
     Contradiction {
         /// The two frames.
         names: [String; 2],
@@ -92,6 +105,7 @@ pub enum ScanError {
         "no two of the {found} frames overlap, so their poses cannot be checked: {}",
         names.join(", ")
     )]
+    #[advice = "Check that each pose belongs to its frame and is a pose of the camera in metres, or add frames between these that show surface of both"]
     NothingOverlaps {
         /// Frames given.
         found: usize,
@@ -102,9 +116,11 @@ pub enum ScanError {
     #[error(
         "the poses look inverted: the frames fit together if each is read as camera_from_world"
     )]
+    #[advice = "Write the poses of the camera in the robot's base frame: invert each matrix of the file"]
     PosesInverted,
     /// Only one frame shows the part that is to be inspected.
     #[error("only one of the {found} frames shows the part: {name}")]
+    #[advice = "Add frames that show the part from other sides, or inspect this frame by itself"]
     PartInOneFrame {
         /// Frames used.
         found: usize,
@@ -113,45 +129,6 @@ pub enum ScanError {
     },
     /// The caller cancelled.
     #[error("the scan was cancelled")]
+    #[advice = "Start it again"]
     Cancelled,
-}
-
-impl Advice for ScanError {
-    fn advice(&self) -> String {
-        match self {
-            Self::TooFewShots { found: 1 } => {
-                "Add frames from other sides, or use the one frame without --scan".into()
-            }
-            Self::TooFewShots { .. } => "Give the folder that holds the frames".into(),
-            Self::TooManyShots { .. } => "Leave out frames that show the same as others".into(),
-            Self::NoPicture { .. } => {
-                "Record depth images, or clouds that keep the camera's rows and columns (organised PCD)".into()
-            }
-            Self::TooFewReadings { .. } => {
-                "Leave the frame out, or capture it again with the camera uncovered and 0.6 to 3 m from the part".into()
-            }
-            Self::NothingAgrees { .. } => {
-                "Check that each pose belongs to its frame, that they are poses of the camera in metres (for poses of the flange give base_from_flange), and that the part stood still".into()
-            }
-            Self::NoMajority { .. } => {
-                "Check that each pose belongs to its frame and that all frames show the same part, which stood still; leave the wrong frames out, or capture them again".into()
-            }
-            Self::Apart { .. } => {
-                "Add frames from between that show surface of both, or let the floor or the hanger be in view of all of them; or scan each side by itself".into()
-            }
-            Self::Contradiction { .. } => {
-                "Check that each pose belongs to its frame and that nothing moved between the frames; leave the wrong frame out, or add one that shows the same edges and so tells which it is".into()
-            }
-            Self::NothingOverlaps { .. } => {
-                "Check that each pose belongs to its frame and is a pose of the camera in metres, or add frames between these that show surface of both".into()
-            }
-            Self::PosesInverted => {
-                "Write the poses of the camera in the robot's base frame: invert each matrix of the file".into()
-            }
-            Self::PartInOneFrame { .. } => {
-                "Add frames that show the part from other sides, or inspect this frame by itself".into()
-            }
-            Self::Cancelled => "Start it again".into(),
-        }
-    }
 }

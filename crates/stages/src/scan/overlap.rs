@@ -32,7 +32,7 @@ pub struct Overlap {
 }
 
 impl Overlap {
-    fn of(mut distances: Vec<f32>) -> Option<Self> {
+    fn from_distances(mut distances: Vec<f32>) -> Option<Self> {
         let num_pairs = distances.len();
         if num_pairs < LEAST_PAIRS {
             return None;
@@ -84,12 +84,12 @@ pub fn overlap(
         let own = distances[i].iter().flatten();
         let others = distances.iter().flat_map(|others| &others[i]);
         let counted = own.chain(others).filter(|d| is_counted(d));
-        Overlap::of(counted.map(|d| d.0).collect())
+        Overlap::from_distances(counted.map(|d| d.0).collect())
     };
     let all = || distances.iter().flatten().flatten();
     Agreement {
-        all: Overlap::of(all().map(|d| d.0).collect()),
-        part: Overlap::of(all().filter(|d| d.1).map(|d| d.0).collect()),
+        all: Overlap::from_distances(all().map(|d| d.0).collect()),
+        part: Overlap::from_distances(all().filter(|d| d.1).map(|d| d.0).collect()),
         shots: (0..n).map(|i| of_shot(i, |_| true)).collect(),
         shots_on_part: (0..n).map(|i| of_shot(i, |d| d.1)).collect(),
     }

@@ -34,8 +34,8 @@ pub(super) fn voters(shots: &[ScannedShot]) -> Vec<usize> {
         return others;
     }
     // A shot that is confirmed may confirm another.
-    while let Some(place) = (others.iter()).position(|&i| is_confirmed(i, &voters, shots)) {
-        voters.push(others.remove(place));
+    while let Some(index) = (others.iter()).position(|&i| is_confirmed(i, &voters, shots)) {
+        voters.push(others.remove(index));
     }
     voters
 }

@@ -78,7 +78,7 @@ const LEAST_COSINE_REGISTERED: f64 = 0.3;
 
 impl ShotSurface {
     /// Prepares a shot; `None` without rows and columns or without a camera.
-    pub fn of(scene: &Arc<SceneCloud>) -> Option<Self> {
+    pub fn from_scene(scene: &Arc<SceneCloud>) -> Option<Self> {
         let camera = scene.intrinsics?;
         let grid = scene.cloud.grid?;
         let points = &scene.cloud.points;
@@ -269,7 +269,7 @@ mod tests {
     #[test]
     fn a_tilted_board_has_its_own_normal_and_its_rim_is_not_registered_with() {
         let (scene, normal) = board_before_wall();
-        let surface = ShotSurface::of(&Arc::new(scene)).expect("a picture");
+        let surface = ShotSurface::from_scene(&Arc::new(scene)).expect("a picture");
         let at = |column: usize, row: usize| row * 640 + column;
         let inside = at(320, 240);
         assert_eq!(surface.uses[inside], Use::Surface);
@@ -290,14 +290,14 @@ mod tests {
             let p = camera.point_at(199.0, f64::from(row), z);
             scene.cloud.points[row as usize * 640 + 199] = p.cast();
         }
-        let surface = ShotSurface::of(&Arc::new(scene)).expect("a picture");
+        let surface = ShotSurface::from_scene(&Arc::new(scene)).expect("a picture");
         assert!((150..330).all(|row| surface.uses[row * 640 + 199] == Use::None));
     }
 
     #[test]
     fn a_surface_seen_further_away_or_edge_on_is_less_certain() {
         let (scene, _) = board_before_wall();
-        let surface = ShotSurface::of(&Arc::new(scene)).expect("a picture");
+        let surface = ShotSurface::from_scene(&Arc::new(scene)).expect("a picture");
         let (board, wall) = (
             surface.sigma(240 * 640 + 320),
             surface.sigma(20 * 640 + 320),
@@ -308,7 +308,7 @@ mod tests {
     #[test]
     fn normals_are_the_same_to_the_bit_whatever_is_kept_of_them() {
         let (scene, _) = board_before_wall();
-        let kept = ShotSurface::of(&Arc::new(scene)).expect("a picture");
+        let kept = ShotSurface::from_scene(&Arc::new(scene)).expect("a picture");
         let (mut cosines, mut dropped) = (kept.clone(), kept.clone());
         cosines.keep_cosines();
         dropped.drop_normals();
@@ -335,6 +335,6 @@ mod tests {
 
     #[test]
     fn a_cloud_without_a_picture_has_no_surface() {
-        assert!(ShotSurface::of(&Arc::default()).is_none());
+        assert!(ShotSurface::from_scene(&Arc::default()).is_none());
     }
 }

@@ -137,7 +137,8 @@ mod tests {
             depth: depth.collect(),
             is_simulated: true,
         };
-        let surface = ShotSurface::of(&Arc::new(scene_from_frame(&frame))).expect("a picture");
+        let surface =
+            ShotSurface::from_scene(&Arc::new(scene_from_frame(&frame))).expect("a picture");
         let past = |column: f64, z: f64| {
             looks_past(&surface, &camera.point_at(column, 240.0, z), 0.015, 0.06)
         };

@@ -26,7 +26,8 @@ pub struct EmptyCell {
 }
 
 /// Reason why a capture cannot be the empty cell.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error, Advice)]
+#[advice = "Capture the empty cell as an organised PCD or a depth PNG, with the camera that captures the parts"]
 pub enum EmptyCellError {
     /// The capture has no rows and columns.
     #[error("the capture of the empty cell is not a picture: its points have no rows and columns")]
@@ -34,12 +35,6 @@ pub enum EmptyCellError {
     /// The capture has other rows and columns than the scene, so it is from another camera.
     #[error("the empty cell was captured with another number of rows or columns, and is not used")]
     OtherPicture,
-}
-
-impl Advice for EmptyCellError {
-    fn advice(&self) -> String {
-        "Capture the empty cell as an organised PCD or a depth PNG, with the camera that captures the parts".into()
-    }
 }
 
 impl SceneCloud {
@@ -54,7 +49,7 @@ impl SceneCloud {
 
 impl EmptyCell {
     /// Creates the empty cell from a capture without a part.
-    pub fn of(scene: &SceneCloud) -> Result<Self, EmptyCellError> {
+    pub fn from_scene(scene: &SceneCloud) -> Result<Self, EmptyCellError> {
         let grid = scene.cloud.grid.ok_or(EmptyCellError::NoPicture)?;
         let depths: Vec<f32> = scene.cloud.points.iter().map(depth_of).collect();
         // The minimum over a square: rows first, then columns.
@@ -90,7 +85,7 @@ impl EmptyCell {
     fn new(grid: Grid, nearest: Vec<f32>) -> Self {
         let is_reading = |i: usize| nearest.get(i).is_some_and(|z| z.is_finite());
         Self {
-            field_of_view: FieldOfView::of(grid, is_reading, None),
+            field_of_view: FieldOfView::from_readings(grid, is_reading, None),
             grid,
             nearest,
         }
@@ -142,7 +137,7 @@ mod tests {
     #[test]
     fn a_heap_of_points_is_no_empty_cell() {
         assert_eq!(
-            EmptyCell::of(&SceneCloud::default()),
+            EmptyCell::from_scene(&SceneCloud::default()),
             Err(EmptyCellError::NoPicture)
         );
     }

@@ -84,7 +84,7 @@ mod tests {
             }
         }
         let mut scene = scene_from_frame(&shot.frame);
-        let empty = EmptyCell::of(&scene_from_frame(&empty.frame)).expect("a picture");
+        let empty = EmptyCell::from_scene(&scene_from_frame(&empty.frame)).expect("a picture");
         scene.empty_cell = Some(Arc::new(empty));
         let found = segment(&scene, &SegmentParams::default());
         let num_clutter = found
@@ -119,7 +119,7 @@ mod tests {
         let mut scene = scene_at(6_000);
         let alone = segment(&scene, &SegmentParams::default());
         assert!(alone.part.is_err(), "without knowing the cell it is a wall");
-        let empty = EmptyCell::of(&scene_at(12_000)).expect("a picture");
+        let empty = EmptyCell::from_scene(&scene_at(12_000)).expect("a picture");
         scene.empty_cell = Some(Arc::new(empty));
         let found = segment(&scene, &SegmentParams::default());
         assert_eq!(found.part.expect("a part").indices.len(), 640 * 480);

@@ -1,6 +1,7 @@
 //! Follows the parts on a line before a camera, and answers triggers about them.
 
 use std::{
+    collections::BTreeMap,
     iter,
     sync::Arc,
     time::{Duration, Instant},
@@ -14,7 +15,7 @@ use crate::{
 };
 use capture::Captured;
 use inspection::pipeline::{Inspection, NamedRecipe, Rejection, Unwatched, run_all};
-use records::history::Traceability;
+use records::history::{HungId, Traceability};
 use robot::line::{LineCalibration, OnLine};
 use serve::Asked;
 use stages::scene::SceneCloud;
@@ -23,7 +24,12 @@ use stages::scene::SceneCloud;
 pub struct LineFollower<E> {
     tracker: LineTracker<E>,
     counts: CountLog,
+    /// The ids of the numbered parts for which no trigger has named an order yet.
+    unnamed: BTreeMap<u32, HungId>,
 }
+
+/// Most parts that wait for a trigger to name their order: more than a camera sees at once.
+const MAX_UNNAMED: usize = 100;
 
 /// A frame of a line, whose parts are refused unless they count.
 pub struct FollowedFrame {
@@ -43,6 +49,7 @@ impl<E> LineFollower<E> {
         Self {
             counts: CountLog::new(line.counter),
             tracker: LineTracker::new(line),
+            unnamed: BTreeMap::new(),
         }
     }
 
@@ -58,6 +65,14 @@ impl<E> LineFollower<E> {
         self.counts.moment(at, speed.map(|speed| speed / per_count))
     }
 
+    /// Takes the ids of the parts of a frame for which no trigger has named an order before: the first one counts.
+    fn take_unnamed(&mut self, followed: &[Followed]) -> Vec<HungId> {
+        let numbers = followed.iter().filter_map(|part| part.number);
+        numbers
+            .filter_map(|number| self.unnamed.remove(&number))
+            .collect()
+    }
+
     /// Ends the source. Returns what is still to be recorded.
     pub fn end(self) -> Vec<E> {
         self.tracker.end()
@@ -65,14 +80,14 @@ impl<E> LineFollower<E> {
 }
 
 impl Answering<'_> {
-    /// Inspects a frame of a line. Also returns what to record now; `entry` gets a part as it is recorded.
+    /// Inspects a frame of a line. Also returns what to record now; `entry` gets a part as it is recorded, and its id.
     pub fn follow<E>(
         &self,
         captured: Captured,
         subject: Subject,
         line: &mut LineFollower<E>,
         scene_of: impl FnOnce(Captured) -> Arc<SceneCloud>,
-        entry: impl Fn(&Inspected<'_>) -> E,
+        entry: impl Fn(&Inspected<'_>, HungId) -> E,
     ) -> Result<(FollowedFrame, Vec<E>), NoFrame> {
         let expected = (self.finder).expected(&self.expected, &self.recipe.rack, self.library)?;
         let recipe = self.recipe.expecting(expected);
@@ -86,14 +101,22 @@ impl Answering<'_> {
         let (followed, recorded) = line.tracker.see(
             moment,
             &mut inspections,
-            |part| part.best_reference(self.library)?.middle(),
+            |part| part.middle(self.library),
             |_, part, on_line| {
-                entry(&Inspected {
+                let hung = HungId::new();
+                if let Some(here) = &on_line {
+                    line.unnamed.insert(here.number, hung.clone());
+                }
+                let part = Inspected {
                     on_line,
                     ..inspected_of(&subject, &scene, part, &recipe, robot)
-                })
+                };
+                entry(&part, hung)
             },
         );
+        while line.unnamed.len() > MAX_UNNAMED {
+            line.unnamed.pop_first();
+        }
         let frame = FollowedFrame {
             subject,
             scene,
@@ -107,7 +130,8 @@ impl Answering<'_> {
 
     /// Answers a trigger with the poses of the parts on a line when it came, at the count that was sent with it; without a
     /// count, with those of the frame. It takes frames until a part counts, nothing hangs there, or the time is over. Also
-    /// returns what to record. `next` captures a frame after the trigger.
+    /// returns what to record, and the ids of the parts for which the trigger, as the first one, named an order or a serial
+    /// number. `next` captures a frame after the trigger.
     pub fn answer_on_line<E>(
         &self,
         asked: &Asked,
@@ -115,8 +139,8 @@ impl Answering<'_> {
         trace: &Traceability,
         next: impl Fn() -> Result<(Captured, Subject), NoFrame>,
         mut scene_of: impl FnMut(Captured) -> Arc<SceneCloud>,
-        entry: impl Fn(&Inspected<'_>) -> E,
-    ) -> (Result<Answered, NoFrame>, Vec<E>) {
+        entry: impl Fn(&Inspected<'_>, HungId) -> E,
+    ) -> (Result<Answered, NoFrame>, Vec<E>, Vec<HungId>) {
         let until = Instant::now() + self.at_most;
         let mut recorded = Vec::new();
         let mut sent = None;
@@ -133,12 +157,14 @@ impl Answering<'_> {
             });
             let (sent, (frame, records)) = match seen {
                 Ok(seen) => seen,
-                Err(why) => return (Err(why), recorded),
+                Err(why) => return (Err(why), recorded, Vec::new()),
             };
             recorded.extend(records);
             if frame.is_settled() || Instant::now() >= until || (self.is_ending)() {
+                let is_named = asked.order.is_given();
+                let named = is_named.then(|| line.take_unnamed(&frame.followed));
                 let answered = self.answered_at(asked, &sent, frame, line, trace);
-                return (Ok(answered), recorded);
+                return (Ok(answered), recorded, named.unwrap_or_default());
             }
         }
     }

@@ -26,11 +26,11 @@ const MIN_SPAN_UNCOUNTED_S: f64 = 1.0;
 /// Frames from longer ago do not count, seconds.
 const WINDOW_S: f64 = 3.0;
 /// Share of the frames that must agree: of fewer than ten all, since a few frames may meet a swing at like places.
-const MIN_AGREEING: f64 = 0.9;
+const MIN_AGREEING_SHARE: f64 = 0.9;
 /// Share by which a line may become faster or slower, where there are no counts.
-const SPEED_CHANGE: f64 = 0.1;
+const MAX_SPEED_CHANGE_SHARE: f64 = 0.1;
 /// Difference of two speeds that is no swing, m/s.
-const SPEED_TOLERANCE: f64 = 0.01;
+const SPEED_TOLERANCE_M_S: f64 = 0.01;
 /// Height of the picture at the part over which a frame is sheared, metres.
 const SHEARED_HEIGHT_M: f64 = 1.0;
 /// Standard deviations in a 95 % bound.
@@ -120,7 +120,7 @@ pub(super) fn judge(
     let bound = median(same.iter().map(|(_, one)| one.bounds.shift.0)).unwrap_or_default();
     let deviation = bound / BOUND_DEVIATIONS;
     let along = |one: &AcceptedSighting| (one.pose * one.middle).coords.dot(&line.direction);
-    let timed = Slope::of(
+    let timed = Slope::fit(
         same.iter()
             .map(|(moment, one)| (-since(moment), along(one))),
     );
@@ -129,7 +129,7 @@ pub(super) fn judge(
     let way = |moment: &Moment| count(moment) * line.way_per_count.0;
     let mut rate = 1.0;
     if is_counted {
-        let counted = Slope::of(same.iter().map(|(moment, one)| (way(moment), along(one))));
+        let counted = Slope::fit(same.iter().map(|(moment, one)| (way(moment), along(one))));
         let seen_deviation = deviation / counted.spread;
         let slip_deviation = line.slip.hypot(line.scale_bound) / BOUND_DEVIATIONS;
         let off = counted.slope - 1.0;
@@ -140,7 +140,8 @@ pub(super) fn judge(
         let share = slip_deviation.powi(2) / (slip_deviation.powi(2) + seen_deviation.powi(2));
         rate += off * if share.is_finite() { share } else { 0.0 };
     } else if let Some(expected) = line_speed {
-        let tolerance = 3.0 * speed_deviation + SPEED_CHANGE * expected.abs() + SPEED_TOLERANCE;
+        let tolerance =
+            3.0 * speed_deviation + MAX_SPEED_CHANGE_SHARE * expected.abs() + SPEED_TOLERANCE_M_S;
         if (speed - expected).abs() > tolerance {
             return Judged::Swings;
         }
@@ -174,7 +175,9 @@ pub(super) fn judge(
     let agrees =
         |one: &&(RigidTransform, Option<Uncertainty>)| poses_agree(one, &mean, &last.middle);
     let num_agreeing = carried.iter().filter(agrees).count();
-    if num_agreeing < MIN_SIGHTINGS || (num_agreeing as f64) < MIN_AGREEING * same.len() as f64 {
+    if num_agreeing < MIN_SIGHTINGS
+        || (num_agreeing as f64) < MIN_AGREEING_SHARE * same.len() as f64
+    {
         return Judged::Swings;
     }
     Judged::Carried(LinePose {
@@ -222,7 +225,7 @@ impl LinePose {
     /// The pose at another time, in seconds from this one, with its bounds.
     pub fn after(&self, seconds: f64, line: &LineCalibration) -> (RigidTransform, Uncertainty) {
         let way = self.speed * seconds;
-        let way_bound = (self.speed_bound * seconds).hypot(SPEED_CHANGE * way);
+        let way_bound = (self.speed_bound * seconds).hypot(MAX_SPEED_CHANGE_SHARE * way);
         (
             line.carried(&self.camera_from_part, way),
             line.widened(self.bounds, way, way_bound),
@@ -239,7 +242,7 @@ struct Slope {
 }
 
 impl Slope {
-    fn of(points: impl Iterator<Item = (f64, f64)> + Clone) -> Self {
+    fn fit(points: impl Iterator<Item = (f64, f64)> + Clone) -> Self {
         let num = points.clone().count().max(1) as f64;
         let sum = points
             .clone()

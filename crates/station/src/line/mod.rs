@@ -66,19 +66,19 @@ impl Followed {
 /// Longest exposure, in way of the line: more shears the part by more than a pose may be off.
 const MAX_SMEAR_M: f64 = 0.012;
 /// Distance from its expected place within which a part is the same, metres: parts do not overlap.
-const SAME_PLACE_M: f64 = 0.12;
+const SAME_PLACE_MAX_DISTANCE_M: f64 = 0.12;
 /// The same, as a share of the way since it was seen last.
-const SAME_PLACE_SHARE: f64 = 0.15;
+const SAME_PLACE_MAX_WAY_SHARE: f64 = 0.15;
 /// Greatest speed of a line, m/s, where it is not known yet.
-const MAX_SPEED: f64 = 0.5;
+const MAX_SPEED_M_S: f64 = 0.5;
 /// Way after which a part that was not seen again has left, metres.
-const GONE_WAY_M: f64 = 2.5;
+const LEFT_AFTER_WAY_M: f64 = 2.5;
 /// Time after which it has left where the speed is not known.
-const GONE_TIME: Duration = Duration::from_mins(1);
+const LEFT_AFTER_TIME: Duration = Duration::from_mins(1);
 /// Time for which the speed of a line is taken for known.
-const SPEED_LASTS: Duration = Duration::from_secs(10);
+const MAX_SPEED_AGE: Duration = Duration::from_secs(10);
 /// Number of frames in which something that is not accepted must be where the line carried it, to be more than a reflection.
-const MIN_REFUSED: usize = 3;
+const MIN_REFUSED_FRAMES: usize = 3;
 /// Way for which the line must have carried it: what stands beside the line stays near its place for less.
 const MIN_CARRIED_M: f64 = 0.3;
 /// Most sightings of a part that are kept: more than a fast computer takes while they count.
@@ -139,7 +139,9 @@ impl<E> LineTracker<E> {
             let counts = moment.count? - last.count?;
             (seconds > 0.0).then(|| counts * self.line.way_per_count.0 / seconds)
         });
-        let seen = self.speed.filter(|(_, at)| moment.at <= *at + SPEED_LASTS);
+        let seen = self
+            .speed
+            .filter(|(_, at)| moment.at <= *at + MAX_SPEED_AGE);
         counted.or(seen.map(|(speed, _)| speed))
     }
 
@@ -151,7 +153,7 @@ impl<E> LineTracker<E> {
         moment: Moment,
         found: &mut [Inspection],
         middle_of: impl Fn(&Inspection) -> Option<Point3<f64>>,
-        entry: impl Fn(usize, &Inspection, Option<OnLine>) -> E,
+        mut entry: impl FnMut(usize, &Inspection, Option<OnLine>) -> E,
     ) -> (Vec<Followed>, Vec<E>) {
         let speed = self.speed_at(&moment);
         let mut recorded = self.end_those_gone(&moment, speed);
@@ -171,7 +173,14 @@ impl<E> LineTracker<E> {
                 self.tracks.push(Track::default());
                 self.tracks.len() - 1
             });
-            followed[index] = self.add(track, sighting, inspection, index, &entry, &mut recorded);
+            followed[index] = self.add(
+                track,
+                sighting,
+                inspection,
+                index,
+                &mut entry,
+                &mut recorded,
+            );
         }
         self.last = Some(moment);
         (followed, recorded)
@@ -184,12 +193,12 @@ impl<E> LineTracker<E> {
         sighting: Sighting,
         inspection: &mut Inspection,
         index: usize,
-        entry: &impl Fn(usize, &Inspection, Option<OnLine>) -> E,
+        entry: &mut impl FnMut(usize, &Inspection, Option<OnLine>) -> E,
         recorded: &mut Vec<E>,
     ) -> Followed {
         let line_speed = self
             .speed
-            .filter(|(_, at)| sighting.moment.at <= *at + SPEED_LASTS);
+            .filter(|(_, at)| sighting.moment.at <= *at + MAX_SPEED_AGE);
         let track = &mut self.tracks[track];
         let is_accepted = sighting.accepted.is_some();
         if let Some(last) = track.sightings.back() {
@@ -287,8 +296,8 @@ impl<E> LineTracker<E> {
         let gone = self.tracks.extract_if(.., |track| {
             let last = track.last().moment;
             match way_between(line, &last, moment, speed) {
-                Some(way) => way.abs() > GONE_WAY_M,
-                None => moment.at > last.at + GONE_TIME,
+                Some(way) => way.abs() > LEFT_AFTER_WAY_M,
+                None => moment.at > last.at + LEFT_AFTER_TIME,
             }
         });
         gone.filter_map(Track::unrecorded).collect()
@@ -405,19 +414,20 @@ impl<E> Track<E> {
         let along = moved.dot(&line.direction);
         let across = (moved - line.direction.into_inner() * along).norm();
         let off = if let Some(way) = way_between(line, &last.moment, moment, speed) {
-            let reach = SAME_PLACE_M + SAME_PLACE_SHARE * way.abs();
+            let reach = SAME_PLACE_MAX_DISTANCE_M + SAME_PLACE_MAX_WAY_SHARE * way.abs();
             let off = (along - way).abs();
             (off <= reach).then_some(off)?
         } else {
             let seconds = (moment.at.saturating_sub(last.moment.at)).as_secs_f64();
-            (along.abs() <= SAME_PLACE_M + MAX_SPEED * seconds).then_some(along.abs())?
+            (along.abs() <= SAME_PLACE_MAX_DISTANCE_M + MAX_SPEED_M_S * seconds)
+                .then_some(along.abs())?
         };
-        (across <= SAME_PLACE_M).then(|| off.hypot(across))
+        (across <= SAME_PLACE_MAX_DISTANCE_M).then(|| off.hypot(across))
     }
 
     /// What is recorded of a part that leaves.
     fn unrecorded(self) -> Option<E> {
-        let is_carried = self.num_seen >= MIN_REFUSED && self.carried.abs() >= MIN_CARRIED_M;
+        let is_carried = self.num_seen >= MIN_REFUSED_FRAMES && self.carried.abs() >= MIN_CARRIED_M;
         let is_real = self.was_accepted || is_carried;
         self.held.filter(|_| is_real)
     }

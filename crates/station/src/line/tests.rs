@@ -11,7 +11,7 @@ use nalgebra::{Translation3, Unit, UnitQuaternion};
 use records::history::Traceability;
 use robot::line::{Counter, DEFAULT_EXPOSURE_S, OnLine};
 use serde_json::Value;
-use serve::{Asked, ExpectedNumbers, PoseKind, VerdictCode};
+use serve::{Asked, AskedOrder, ExpectedNumbers, PoseKind, VerdictCode};
 use simulate::{
     CellSetup, LineSetup, PartKind, PartPose, PoseRange, SensorNoise, Side, SimulatedLine,
 };
@@ -62,9 +62,7 @@ impl Seen {
         let scene = scene_from_frame(&frame);
         let inspection = run(&scene, &library, &Recipe::default(), &Unwatched).expect("run");
         assert!(inspection.verdict.is_accepted() && !inspection.touches_edge());
-        let middle = inspection
-            .best_reference(&library)
-            .and_then(Reference::middle);
+        let middle = inspection.middle(&library);
         Self {
             scene: Arc::new(scene),
             inspection,
@@ -477,12 +475,13 @@ fn triggers_are_answered_at_their_counts_though_frames_are_delayed_and_arrive_la
         arrive_later,
     } in [late, delayed]
     {
-        let mut follower: LineFollower<()> = LineFollower::new(line(|line| {
+        let mut follower = LineFollower::new(line(|line| {
             line.direction = simulated.direction();
             line.way_per_count = setup.encoder.way_per_count;
             line.exposure = setup.readout;
             line.delay = delay;
         }));
+        let mut rows = Vec::new();
         for (k, later) in arrive_later.iter().cycle().enumerate().take(7) {
             let asked_at = start + 0.4 * k as f64;
             let exposed = asked_at + 0.1;
@@ -490,6 +489,10 @@ fn triggers_are_answered_at_their_counts_though_frames_are_delayed_and_arrive_la
                 at: begin.0 + Duration::from_secs_f64(asked_at),
                 by_clock: begin.1 + Duration::from_secs_f64(asked_at),
                 count: Some(Counter::Bits32.shown(simulated.count(asked_at))),
+                order: AskedOrder {
+                    order: ["4711", "4711", "4711", "", "4712", "4713", ""][k].into(),
+                    serial: String::new(),
+                },
                 ..Asked::now()
             };
             let stamped = Duration::from_secs_f64(exposed + delay);
@@ -503,14 +506,19 @@ fn triggers_are_answered_at_their_counts_though_frames_are_delayed_and_arrive_la
                 let subject = Subject::of_capture(&captured, &source, 0);
                 Ok((captured, subject))
             };
-            let (answered, _) = answering.answer_on_line(
+            let (answered, recorded, named) = answering.answer_on_line(
                 &asked,
                 &mut follower,
                 &Traceability::default(),
                 next,
                 |captured| Arc::new(scene_from_image(captured.image)),
-                |_| (),
+                |_, hung| hung,
             );
+            // It is recorded once it counts, and of the order that the first trigger names from then on.
+            rows.extend(recorded);
+            assert_eq!(rows.len(), usize::from(k >= 3));
+            let of_order = if k == 4 { &rows[..] } else { &[] };
+            assert_eq!(named, of_order, "{k}");
             let found = answered.expect("a frame").found.first;
             // The count of the first frame is not known yet.
             if k < 3 {

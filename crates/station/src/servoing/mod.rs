@@ -108,13 +108,13 @@ impl ServoOrder {
 }
 
 /// Without a report for this long, a robot that has begun to move is taken for stopped.
-const SILENCE: Duration = Duration::from_secs(5);
+const MAX_SILENCE: Duration = Duration::from_secs(5);
 /// Without a report for this long after the target is reached, its program has ended.
-const SILENCE_AT_END: Duration = Duration::from_secs(1);
+const MAX_SILENCE_AT_END: Duration = Duration::from_secs(1);
 /// How long answers go on after the target is reached, so that the robot's program ends by itself.
-const AFTERWARDS: Duration = Duration::from_secs(10);
+const ANSWER_TIME_AT_END: Duration = Duration::from_secs(10);
 /// How long a turn waits for the robot.
-const TURN: Duration = Duration::from_millis(20);
+const POLL_INTERVAL: Duration = Duration::from_millis(20);
 
 /// Drives a robot until it arrives or stops. `now` is the time by which looks are dated. `next_look` takes a frame and inspects it, on a thread of its own; it returns `None` at
 /// the latest soon after the flag is set. `on_news` is asked every few milliseconds.
@@ -172,11 +172,11 @@ fn exchange(
             return Ok(Step::Stop(StopReason::ByPerson));
         }
         if let Some((since, end)) = &done
-            && since.elapsed() > AFTERWARDS
+            && since.elapsed() > ANSWER_TIME_AT_END
         {
             return Ok(end.clone());
         }
-        let received = match (link.receive(TURN), &done) {
+        let received = match (link.receive(POLL_INTERVAL), &done) {
             // The robot's program has ended.
             (Err(LinkError::Lost { .. }), Some((_, end))) => return Ok(end.clone()),
             (received, _) => received?,
@@ -184,8 +184,8 @@ fn exchange(
         let Some(bytes) = received else {
             let silent = last_report.map_or(Duration::ZERO, |at| at.elapsed());
             match &done {
-                Some((_, end)) if silent > SILENCE_AT_END => return Ok(end.clone()),
-                None if silent > SILENCE => {
+                Some((_, end)) if silent > MAX_SILENCE_AT_END => return Ok(end.clone()),
+                None if silent > MAX_SILENCE => {
                     let gap_s = silent.as_secs_f64();
                     return Ok(Step::Stop(StopReason::ArmTimes { gap_s }));
                 }

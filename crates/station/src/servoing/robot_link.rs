@@ -31,15 +31,15 @@ pub enum RobotAddress {
 /// The port at which Universal Robots' controllers listen for RTDE.
 const RTDE_PORT: u16 = 30004;
 /// How many ports lower they listen for programs.
-const PROGRAM_PORT_BELOW: u16 = 2;
+const PROGRAM_PORT_OFFSET: u16 = 2;
 /// Greatest size of a UDP packet.
-const MAX_PACKET: usize = 65_536;
+const MAX_PACKET_BYTES: usize = 65_536;
 /// How long a controller may take to accept a connection or bytes.
 const CONNECT_TIMEOUT: Duration = Duration::from_secs(5);
 
 impl RobotAddress {
     /// An address of a controller of this protocol.
-    pub fn of(protocol: StreamProtocol, at: SocketAddr) -> Self {
+    pub fn new(protocol: StreamProtocol, at: SocketAddr) -> Self {
         match protocol {
             StreamProtocol::Egm => Self::Egm(at),
             StreamProtocol::Rsi => Self::Rsi(at),
@@ -66,7 +66,7 @@ impl RobotAddress {
     /// The same protocol at another address.
     #[must_use]
     pub fn at(self, at: SocketAddr) -> Self {
-        Self::of(self.protocol(), at)
+        Self::new(self.protocol(), at)
     }
 
     /// What speaks its protocol. RSI needs the arm.
@@ -97,24 +97,27 @@ impl FromStr for RobotAddress {
             Ok(ip) if protocol == StreamProtocol::Rtde => Some(SocketAddr::new(ip, RTDE_PORT)),
             _ => parse_address(at).ok(),
         };
-        Ok(Self::of(protocol, at.ok_or_else(wrong)?))
+        Ok(Self::new(protocol, at.ok_or_else(wrong)?))
     }
 }
 
 /// Why a robot cannot be reached.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Advice)]
 pub enum LinkError {
     /// The text names no robot.
     #[error("{text:?} is not the address of a robot")]
+    #[advice = "Give egm=IP:PORT or rsi=IP:PORT of this computer, or ur=IP of the robot, for example egm=192.168.1.10:6510"]
     Address {
         /// The text.
         text: String,
     },
     /// The protocol needs a model of the arm.
     #[error("RSI corrects joints, so the arm must be known")]
+    #[advice = "Add --arm and --nozzle"]
     NoArm,
     /// The system does not listen there.
     #[error("cannot listen at {at}: {}", words_of(source))]
+    #[advice = "Give the address of this computer's network card that leads to the robot, and end other programs that use the port"]
     Listen {
         /// The address.
         at: SocketAddr,
@@ -123,6 +126,7 @@ pub enum LinkError {
     },
     /// The controller does not answer.
     #[error("no connection to the robot at {at}: {}", words_of(source))]
+    #[advice = "Check the robot's address and cable, and that it is set to remote control"]
     Connect {
         /// The address.
         at: SocketAddr,
@@ -131,6 +135,7 @@ pub enum LinkError {
     },
     /// The connection broke.
     #[error("the connection to the robot at {at} is lost: {}", words_of(source))]
+    #[advice = "The robot stops by itself. Check the cable and the controller, and servo again"]
     Lost {
         /// The address.
         at: SocketAddr,
@@ -139,28 +144,8 @@ pub enum LinkError {
     },
     /// The controller speaks otherwise.
     #[error(transparent)]
+    #[advice(transparent)]
     Stream(#[from] StreamError),
-}
-
-impl Advice for LinkError {
-    fn advice(&self) -> String {
-        match self {
-            Self::Address { .. } => {
-                "Give egm=IP:PORT or rsi=IP:PORT of this computer, or ur=IP of the robot, for example egm=192.168.1.10:6510".into()
-            }
-            Self::NoArm => "Add --arm and --nozzle".into(),
-            Self::Listen { .. } => {
-                "Give the address of this computer's network card that leads to the robot, and end other programs that use the port".into()
-            }
-            Self::Connect { .. } => {
-                "Check the robot's address and cable, and that it is set to remote control".into()
-            }
-            Self::Lost { .. } => {
-                "The robot stops by itself. Check the cable and the controller, and servo again".into()
-            }
-            Self::Stream(error) => error.advice(),
-        }
-    }
 }
 
 /// A connection to a controller.
@@ -205,7 +190,7 @@ impl RobotLink {
                     stream.map_err(|source| LinkError::Connect { at, source })
                 };
                 let rtde = connect(at)?;
-                let port = at.port().saturating_sub(PROGRAM_PORT_BELOW);
+                let port = at.port().saturating_sub(PROGRAM_PORT_OFFSET);
                 let program_at = SocketAddr::new(at.ip(), port);
                 let sent = connect(program_at)?.write_all(Rtde::PROGRAM.as_bytes());
                 sent.map_err(|source| LinkError::Lost {
@@ -218,7 +203,7 @@ impl RobotLink {
         Ok(Self {
             at,
             socket,
-            buffer: vec![0; MAX_PACKET],
+            buffer: vec![0; MAX_PACKET_BYTES],
         })
     }
 

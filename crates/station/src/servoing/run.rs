@@ -79,44 +79,31 @@ pub struct ServoOutcome {
 }
 
 /// Why a run cannot begin.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Advice)]
 pub enum ServoRunError {
     /// The part cannot be servoed to.
     #[error(transparent)]
+    #[advice(transparent)]
     Setup(#[from] SetupError),
     /// The simulated cell lacks the part.
     #[error("{}", Message::new("servo-not-simulated").with("part", part.as_str()))]
+    #[advice("Choose one of {}", PartKind::ALL.map(PartKind::name).join(", "))]
     NotSimulated {
         /// Its name.
         part: String,
     },
     /// The simulated cell cannot be arranged.
     #[error(transparent)]
+    #[advice = "Try another seed or another part, of the library that comes with the program"]
     Cell(#[from] SimulatedCellError),
     /// A parameter is out of its range.
     #[error(transparent)]
+    #[advice(transparent)]
     Params(#[from] ServoError),
     /// The robot cannot be reached.
     #[error(transparent)]
+    #[advice(transparent)]
     Link(#[from] LinkError),
-}
-
-impl Advice for ServoRunError {
-    fn advice(&self) -> String {
-        match self {
-            Self::Setup(error) => error.advice(),
-            Self::NotSimulated { .. } => {
-                let known = PartKind::ALL.map(PartKind::name).join(", ");
-                format!("Choose one of {known}")
-            }
-            Self::Cell(_) => {
-                "Try another seed or another part, of the library that comes with the program"
-                    .into()
-            }
-            Self::Params(error) => error.advice(),
-            Self::Link(error) => error.advice(),
-        }
-    }
 }
 
 /// How wrong the simulated calibration is at most.
@@ -125,7 +112,7 @@ const SIMULATED_HAND_EYE: HandEyeError = HandEyeError {
     turn: Radians(0.035),
 };
 /// How long the camera's thread waits for a frame before it looks whether the run is over.
-const TURN: Duration = Duration::from_millis(100);
+const POLL_INTERVAL: Duration = Duration::from_millis(100);
 
 impl ServoJob<'_> {
     fn drive(
@@ -323,7 +310,7 @@ pub fn servo_real(
         if is_over.load(Ordering::SeqCst) || feed.status().state.is_over() {
             return None;
         }
-        let Some(FeedItem::Captured(captured)) = feed.wait(TURN) else {
+        let Some(FeedItem::Captured(captured)) = feed.wait(POLL_INTERVAL) else {
             continue;
         };
         let taken_at = captured.arrived.saturating_duration_since(started);
@@ -379,7 +366,7 @@ pub fn servo_simulated(
         noise: 1.0,
         start: (Metres(0.25), Radians::from_degrees(25.0)),
         hand_eye: SIMULATED_HAND_EYE,
-        frame_period: TURN,
+        frame_period: POLL_INTERVAL,
         delay: Duration::ZERO,
         dynamics: ArmDynamics::default(),
         disturbance: Disturbance::None,
@@ -391,7 +378,7 @@ pub fn servo_simulated(
     let (robot, mut link) = SimulatedRobot::start(cell.controller(protocol), protocol)?;
     on_news(Some(ServoNews::Begins {
         task: Arc::new(cell.task.clone()),
-        robot: RobotAddress::of(protocol, link.address()),
+        robot: RobotAddress::new(protocol, link.address()),
     }));
     let row = ServoRun {
         is_simulated: true,

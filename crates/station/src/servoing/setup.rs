@@ -65,22 +65,25 @@ pub struct PreparedTask {
 }
 
 /// Why a part cannot be servoed to.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Advice)]
 pub enum SetupError {
     /// The part is not enrolled.
     #[error("{part} is not enrolled")]
+    #[advice = "See the parts with partsight library list"]
     NotEnrolled {
         /// Its name.
         part: String,
     },
     /// The part has several references, or one without points.
     #[error("{part} has several references")]
+    #[advice = "Name the one that hangs there: partsight library list"]
     SeveralReferences {
         /// Its name.
         part: String,
     },
     /// The frames were taken earlier.
     #[error("{from} is replayed: its frames do not show what hangs there now")]
+    #[advice = "Give a camera as --source; to try it without one: partsight servo --simulated"]
     Replayed {
         /// The source.
         from: String,
@@ -89,32 +92,39 @@ pub enum SetupError {
     #[error(
         "{part} is not accepted in at least half of the frames of the target, in the same place"
     )]
+    #[advice = "Take the frames again, with the whole part in the picture and the camera at rest"]
     NotRecorded {
         /// The part.
         part: String,
     },
     /// The part has no spray path.
     #[error("{part} has no spray path")]
+    #[advice = "Store one with partsight library path {part} YOUR_PATH.csv, or plan one with partsight path plan {part}"]
     NoPath {
         /// The part.
         part: String,
     },
     /// The path does not aim at the part.
     #[error(transparent)]
+    #[advice(transparent)]
     OffThePart(#[from] OffThePart),
     /// There is no nozzle that could go to the start of a path.
     #[error("where the nozzle sits on the flange is not known")]
+    #[advice = "Give its pose with --nozzle"]
     NoNozzle,
     /// It is not known how exact the calibration is.
     #[error(
         "how exact the calibration is, is not known: its numbers were entered by hand, or the pairs do not bound them"
     )]
+    #[advice = "Calibrate from pairs of poses (partsight calibrate hand-eye), which also tells how exact it is, or servo to the standard position or to --seen-as"]
     NoBounds,
     /// The part cannot be expected.
     #[error(transparent)]
+    #[advice(transparent)]
     Expected(#[from] ExpectedError),
     /// The task cannot be done.
     #[error(transparent)]
+    #[advice(transparent)]
     Task(#[from] TaskError),
 }
 
@@ -136,37 +146,8 @@ impl SetupError {
     }
 }
 
-impl Advice for SetupError {
-    fn advice(&self) -> String {
-        match self {
-            Self::NotEnrolled { .. } => "See the parts with partsight library list".into(),
-            Self::SeveralReferences { .. } => {
-                "Name the one that hangs there: partsight library list".into()
-            }
-            Self::Replayed { .. } => {
-                "Give a camera as --source; to try it without one: partsight servo --simulated"
-                    .into()
-            }
-            Self::NotRecorded { .. } => {
-                "Take the frames again, with the whole part in the picture and the camera at rest"
-                    .into()
-            }
-            Self::NoPath { part } => {
-                format!("Store one with partsight library path {part} YOUR_PATH.csv, or plan one with partsight path plan {part}")
-            }
-            Self::OffThePart(off) => off.advice(),
-            Self::NoNozzle => "Give its pose with --nozzle".into(),
-            Self::NoBounds => {
-                "Calibrate from pairs of poses (partsight calibrate hand-eye), which also tells how exact it is, or servo to the standard position or to --seen-as".into()
-            }
-            Self::Expected(error) => error.advice(),
-            Self::Task(error) => error.advice(),
-        }
-    }
-}
-
 /// Radius around the camera that is kept clear.
-const CAMERA_RADIUS: f64 = 0.06;
+const CAMERA_RADIUS_M: f64 = 0.06;
 /// How far the start of a path may be away: the nozzle is much nearer to the part than the camera.
 const MAX_WAY_TO_PATH: Metres = Metres(1.2);
 
@@ -291,7 +272,7 @@ impl ServoSetup {
             flange_from_camera, ..
         } = &task.camera
         {
-            keep_clear(flange_from_camera, CAMERA_RADIUS);
+            keep_clear(flange_from_camera, CAMERA_RADIUS_M);
         }
         fence.arm.clone_from(&self.placed);
         if !task.is_part_held() {

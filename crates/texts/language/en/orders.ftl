@@ -26,7 +26,7 @@ order-too-long = the order or the serial number has more than { $limit } charact
     .advice = Check what was scanned
 order-not-given = no order is given
     .advice = Enter or scan the order
-    .command-advice = Give the order
+    .command-advice = Give it with --order, with the trigger (TRIGGER ORDER=4711), or in the window's field for the order
 order-unknown-order = order { $order } is not in the table of orders
     .advice = Check the order, or ask for the table to be completed
     .command-advice = Check the order, or add it to the table
@@ -35,7 +35,7 @@ order-unknown-serial = serial number { $serial } is not in the table of orders
     .command-advice = Check the serial number, or add it to the table
 order-serial-not-given = order { $order } differs by serial number, and none is given
     .advice = Scan the serial number
-    .command-advice = Give the serial number
+    .command-advice = Give it with --serial, with the trigger (TRIGGER SERIAL=TL-0042), or in the window's field for the serial number
 order-other-order = serial number { $serial } is of order { $other }, not { $order }
     .advice = Check the order and the serial number
 order-several = several orders have serial number { $serial }

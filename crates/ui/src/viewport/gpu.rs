@@ -23,22 +23,25 @@ use super::{
 use geometry::error::{Advice, lock};
 
 /// Why a view cannot be drawn.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error, Advice)]
 pub enum ViewError {
     /// No graphics device was found.
     #[error("no graphics device was found ({reason})")]
+    #[advice = "Install a Vulkan driver (on Debian mesa-vulkan-drivers), then start Partsight again"]
     NoDevice {
         /// Message of the system.
         reason: String,
     },
     /// The device was lost, for example after a driver update or when a laptop slept.
     #[error("the graphics device was lost ({reason})")]
+    #[advice = "Start Partsight again"]
     DeviceLost {
         /// Message of the system.
         reason: String,
     },
     /// The device reported an error, for example for lack of memory.
     #[error("the graphics device reported an error ({reason})")]
+    #[advice = "Close other programs that use the graphics device, then start Partsight again"]
     DeviceError {
         /// Message of the device.
         reason: String,
@@ -47,6 +50,7 @@ pub enum ViewError {
     #[error(
         "a picture of {width} × {height} pixels was requested, but the device draws 1 × 1 to {most} × {most}"
     )]
+    #[advice = "Ask for a smaller picture"]
     PictureSize {
         /// Requested width, pixels.
         width: u32,
@@ -55,21 +59,6 @@ pub enum ViewError {
         /// Largest side, pixels.
         most: u32,
     },
-}
-
-impl Advice for ViewError {
-    fn advice(&self) -> String {
-        match self {
-            Self::NoDevice { .. } => {
-                "Install a Vulkan driver (on Debian mesa-vulkan-drivers), then start Partsight again".into()
-            }
-            Self::DeviceLost { .. } => "Start Partsight again".into(),
-            Self::DeviceError { .. } => {
-                "Close other programs that use the graphics device, then start Partsight again".into()
-            }
-            Self::PictureSize { .. } => "Ask for a smaller picture".into(),
-        }
-    }
 }
 
 /// A handle on the device for any number of views. Cloning is cheap and shares everything.

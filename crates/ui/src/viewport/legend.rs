@@ -78,8 +78,8 @@ pub fn colour_keys(painter: &Painter, corner: Pos2, keys: &[(Color32, String)], 
     let size = Vec2::new(width, LINE * texts.len() as f32 + 6.0);
     let plate = Align2::LEFT_BOTTOM.anchor_size(corner, size);
     painter.rect_filled(plate, ROUNDING, theme.canvas.gamma_multiply(0.82));
-    for (place, ((colour, _), text)) in keys.iter().zip(texts).enumerate() {
-        let middle = plate.top() + 3.0 + LINE * (place as f32 + 0.5);
+    for (index, ((colour, _), text)) in keys.iter().zip(texts).enumerate() {
+        let middle = plate.top() + 3.0 + LINE * (index as f32 + 0.5);
         let at = Pos2::new(plate.left() + 8.0, middle);
         let square = Align2::LEFT_CENTER.anchor_size(at, Vec2::splat(SQUARE));
         painter.rect_filled(square, 2.0, *colour);

@@ -24,7 +24,7 @@ use plant::bundle::{
 Examples:
   partsight library keys keys
 
-Writes library.key, the private key, which stays with the publisher and which only its owner can read, and library.pub,
+Writes library.key, the private key, which stays with the publisher and which only its owner can read, and library.pub, \
 the public key, which every cell gets. Existing keys are never replaced.")]
 pub(crate) struct KeysArgs {
     /// The folder for both; created if missing
@@ -62,9 +62,9 @@ Examples:
   partsight library take --from s3://parts/hall-3 --trust library.pub --library parts
   partsight library take --from s3://parts/hall-3 --trust library.pub --version 6
 
-Signature, digest and every part are checked before anything is changed. Parts that the version replaces are moved to the
-library's .trash. A spray path that was stored here stays with its part if the version has the same reference of the part
-and no path for it. Inspections do not need the store: they use the installed library. A running program keeps the library
+Signature, digest and every part are checked before anything is changed. Parts that the version replaces are moved to the \
+library's .trash. A spray path that was stored here stays with its part if the version has the same reference of the part \
+and no path for it. Inspections do not need the store: they use the installed library. A running program keeps the library \
 that it read at its start; only the window, and serve --take, notice the change by themselves.")]
 pub(crate) struct TakeArgs {
     /// The store, as for publish (partsight library publish --help)
@@ -88,7 +88,7 @@ Examples:
   partsight library versions /mnt/plant/library
   partsight library versions s3://parts/hall-3 --json
 
-KEY is the beginning of the public key's SHA-256, as library keys shows it: only library take checks it against the key
+KEY is the beginning of the public key's SHA-256, as library keys shows it: only library take checks it against the key \
 that you trust. HERE marks the version that the library was taken from.")]
 pub(crate) struct VersionsArgs {
     /// The store, as for publish (partsight library publish --help)
@@ -215,7 +215,7 @@ fn note_other_numbers(
     let names = library.names().advised()?;
     let is_here = |part: &PartName| names.iter().any(|name| name == part.as_str());
     for (part, theirs) in published.all().filter(|(part, _)| is_here(part)) {
-        match numbers.of(part) {
+        match numbers.number_of(part) {
             Some(here) if here != theirs => console.entry(
                 "number",
                 &format_args!("{part} keeps {here}, the version has {theirs}"),
@@ -232,7 +232,11 @@ fn note_other_numbers(
 
 fn version(choice: &LibraryChoice, console: &mut Console) -> anyhow::Result<Outcome> {
     let place = choice.open(console)?;
-    let taken = place.folder().map(TakenBundle::of).transpose().advised()?;
+    let taken = place
+        .folder()
+        .map(TakenBundle::read)
+        .transpose()
+        .advised()?;
     let (Some(folder), Some(taken)) = (place.folder(), taken.flatten()) else {
         console.line(&format_args!(
             "{}: no version was taken into this library",
@@ -282,7 +286,7 @@ fn versions(
 ) -> anyhow::Result<Outcome> {
     let store = open_store(&args.store)?;
     let place = choice.open(console)?;
-    let taken = match place.folder().map(TakenBundle::of).transpose() {
+    let taken = match place.folder().map(TakenBundle::read).transpose() {
         Ok(taken) => taken.flatten(),
         Err(error) => {
             console.warn(&error, &error);
@@ -370,7 +374,7 @@ fn read_version(place: &LibraryPlace) -> Result<Option<TakenVersion>, BundleErro
     let Some(folder) = place.folder() else {
         return Ok(None);
     };
-    let Some(taken) = TakenBundle::of(folder)? else {
+    let Some(taken) = TakenBundle::read(folder)? else {
         return Ok(None);
     };
     Ok(Some(TakenVersion {

@@ -160,7 +160,7 @@ fn show(database: &Database, asked: &ShowArgs, console: &mut Console) -> anyhow:
     if found.is_empty() {
         return Err(HistoryError::NoSuchInspection { number }).advised();
     }
-    for (place, of_cell) in found.iter().enumerate() {
+    for (index, of_cell) in found.iter().enumerate() {
         let below = database.below(of_cell).advised()?.into_iter();
         let below: Vec<Record> = below.map(|other| other.record).collect();
         let record = &of_cell.record;
@@ -171,7 +171,7 @@ fn show(database: &Database, asked: &ShowArgs, console: &mut Console) -> anyhow:
         if asked.json {
             console.line(&record_line(from, record, &below, None));
         } else {
-            if place > 0 {
+            if index > 0 {
                 console.line(&"");
             }
             card(from, record, &below, console);

@@ -130,10 +130,7 @@ impl Publisher {
 
     /// Publishes that something could not be read.
     pub(crate) fn skipped(&mut self, skipped: &SkippedCapture) {
-        let why = NoFrame::Unreadable {
-            name: skipped.name.clone(),
-            error: skipped.error.clone(),
-        };
+        let why = NoFrame::Unreadable(skipped.clone());
         self.publish(Found::error((&why).into()));
     }
 

@@ -144,7 +144,7 @@ impl<'a> LibraryTaker<'a> {
                 "Name a folder with --library",
             ));
         };
-        let taken = TakenBundle::of(folder).advised()?;
+        let taken = TakenBundle::read(folder).advised()?;
         server.set_library(LibraryStatus {
             version: taken.map(|taken| taken.manifest.version),
             problem: None,

@@ -163,8 +163,8 @@ fn part_menu(ui: &mut Ui, align: &AlignState, session: &Session, actions: &mut V
 fn starts(ui: &mut Ui, align: &AlignState, actions: &mut Vec<AlignAction>) {
     let start = align.start;
     ui.weak(text!("align-start"));
-    for place in 0..Start::NUM_PAPER {
-        let paper = Start::Paper(place);
+    for index in 0..Start::NUM_PAPER {
+        let paper = Start::Paper(index);
         let button = choice(ui, start == paper, &paper.title());
         if button.on_hover_text(numbers(paper)).clicked() {
             actions.push(AlignAction::ChooseStart(paper));

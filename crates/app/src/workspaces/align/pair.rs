@@ -95,7 +95,7 @@ const SAMPLE: usize = 4_000;
 
 impl Pair {
     /// Reads and prepares both clouds.
-    pub fn of(source: &PairSource, library_cache: &LibraryCache) -> Result<Self, UserError> {
+    pub fn load(source: &PairSource, library_cache: &LibraryCache) -> Result<Self, UserError> {
         match source {
             PairSource::MovedCopy { part, start } => {
                 let loaded = library_cache.get();
@@ -234,10 +234,10 @@ fn onto(source: &str, target: &str) -> String {
 
 /// Finds the enrolled part of this name, and its title.
 fn find<'a>(loaded: &'a LoadedLibrary, part: &str) -> Result<(&'a Reference, &'a str), UserError> {
-    let place = loaded.shown.place_of(part);
-    let found = place.and_then(|place| {
-        let reference = loaded.library.references.get(place)?;
-        Some((reference, loaded.shown.title(place)))
+    let index = loaded.shown.place_of(part);
+    let found = index.and_then(|index| {
+        let reference = loaded.library.references.get(index)?;
+        Some((reference, loaded.shown.title(index)))
     });
     found.ok_or_else(|| UserError {
         what: described(&Message::new("no-such-part").with("name", part)),

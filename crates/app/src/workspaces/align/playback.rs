@@ -20,7 +20,7 @@ pub struct MethodComparison {
 
 impl MethodComparison {
     /// Last iteration of the longest track.
-    pub fn last_place(&self) -> usize {
+    pub fn last_iteration(&self) -> usize {
         let tracks = self.tracks().map(|(_, track)| track.poses.len());
         tracks.max().unwrap_or(1).saturating_sub(1)
     }
@@ -38,22 +38,24 @@ const PLAY_SECONDS: f32 = 6.0;
 const LEAST_PACE: f32 = 10.0;
 
 impl AlignState {
-    /// Last place of the scrubber, iterations.
-    pub fn last_place(&self) -> usize {
-        self.shown.as_ref().map_or(0, MethodComparison::last_place)
+    /// Last iteration of the scrubber.
+    pub fn last_iteration(&self) -> usize {
+        self.shown
+            .as_ref()
+            .map_or(0, MethodComparison::last_iteration)
     }
 
-    pub(super) fn go_to(&mut self, place: f32) {
-        self.place = place.clamp(0.0, self.last_place() as f32);
+    pub(super) fn go_to(&mut self, iteration: f32) {
+        self.iteration = iteration.clamp(0.0, self.last_iteration() as f32);
     }
 
     pub(super) fn toggle_play(&mut self) {
         self.playback = match self.playback {
             Playback::Playing => Playback::Paused,
-            Playback::Paused if self.last_place() == 0 => Playback::Paused,
+            Playback::Paused if self.last_iteration() == 0 => Playback::Paused,
             Playback::Paused => {
-                if self.place >= self.last_place() as f32 {
-                    self.place = 0.0;
+                if self.iteration >= self.last_iteration() as f32 {
+                    self.iteration = 0.0;
                 }
                 Playback::Playing
             }
@@ -64,9 +66,9 @@ impl AlignState {
         if self.playback == Playback::Paused {
             return;
         }
-        let last = self.last_place() as f32;
-        self.go_to(self.place + seconds * (last / PLAY_SECONDS).max(LEAST_PACE));
-        if self.place >= last {
+        let last = self.last_iteration() as f32;
+        self.go_to(self.iteration + seconds * (last / PLAY_SECONDS).max(LEAST_PACE));
+        if self.iteration >= last {
             self.playback = Playback::Paused;
         }
     }
@@ -84,7 +86,7 @@ impl AlignState {
         }
         // Show the end first.
         if self.playback == Playback::Paused {
-            self.place = self.last_place() as f32;
+            self.iteration = self.last_iteration() as f32;
         }
     }
 }

@@ -20,12 +20,17 @@ const GOAL: f64 = -6.0;
 /// Opacity of the line that continues a curve beyond its end.
 const HELD: f32 = 0.5;
 
-/// Draws axes, goal, searches, curves and the scrubber at `place`.
-pub(super) fn show(ui: &mut Ui, rect: Rect, shown: &MethodComparison, place: f32) -> PlotTransform {
+/// Draws axes, goal, searches, curves and the scrubber at `iteration`.
+pub(super) fn show(
+    ui: &mut Ui,
+    rect: Rect,
+    shown: &MethodComparison,
+    iteration: f32,
+) -> PlotTransform {
     let theme = Theme::of(ui);
     let [low, high] = range_of(shown.tracks().flat_map(|(_, track)| &track.log_e));
     let (low, high) = (low.min(GOAL).floor(), high.max(GOAL + 1.0).ceil());
-    let last = shown.last_place();
+    let last = shown.last_iteration();
     let marks = [0, last / 2, last].map(|number| (number as f64, number.to_string()));
     let axes = Axes {
         title: Vec::new(),
@@ -62,7 +67,7 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, shown: &MethodComparison, place: f32
         let end = drawn.position_from_point(&end_of(track).into());
         taken.push(name(painter, area, end, &taken, run, theme));
     }
-    let x = drawn.position_from_point_x(f64::from(place));
+    let x = drawn.position_from_point_x(f64::from(iteration));
     let stroke = Stroke::new(1.5, theme.text);
     painter.vline(x, area.y_range(), stroke);
     // The handle is above the curves; the numbers are below them.
@@ -117,9 +122,9 @@ fn name_the_goal(
 ) -> Rect {
     let (area, goal) = (*drawn.frame(), drawn.position_from_point_y(GOAL));
     let curves = shown.tracks().map(|(_, track)| -> Vec<Pos2> {
-        let places = track.log_e.iter().enumerate();
-        let at = |(place, e): (usize, &f32)| PlotPoint::new(place as f64, *e);
-        places
+        let points = track.log_e.iter().enumerate();
+        let at = |(index, e): (usize, &f32)| PlotPoint::new(index as f64, *e);
+        points
             .map(|one| drawn.position_from_point(&at(one)))
             .collect()
     });

@@ -16,7 +16,11 @@ const PAGE: f32 = 10.0;
 
 /// Draws heading and plot.
 pub(super) fn ui(ui: &mut Ui, align: &AlignState, actions: &mut Vec<AlignAction>) {
-    let Some(shown) = align.shown.as_ref().filter(|shown| shown.last_place() > 0) else {
+    let Some(shown) = align
+        .shown
+        .as_ref()
+        .filter(|shown| shown.last_iteration() > 0)
+    else {
         none(ui, align);
         return;
     };
@@ -34,21 +38,21 @@ pub(super) fn ui(ui: &mut Ui, align: &AlignState, actions: &mut Vec<AlignAction>
     let sense = Sense::click_and_drag() | Sense::FOCUSABLE;
     let response = ui.interact(rect, id, sense);
     ui.allocate_rect(rect, Sense::hover());
-    let drawn = plot::show(ui, rect, shown, align.place);
+    let drawn = plot::show(ui, rect, shown, align.iteration);
     if response.clicked() || response.drag_started() {
         response.request_focus();
     }
     if (response.clicked() || response.dragged())
         && let Some(at) = response.interact_pointer_pos()
     {
-        let place = drawn.value_from_position(at).x.round() as f32;
-        actions.push(AlignAction::Scrub(place));
+        let iteration = drawn.value_from_position(at).x.round() as f32;
+        actions.push(AlignAction::Scrub(iteration));
     }
-    let last = align.last_place() as f32;
+    let last = align.last_iteration() as f32;
     let scrubber = Scrubber {
         label: text!("align-scrubber"),
         keys: text!("align-scrubber-keys"),
-        place: f64::from(align.place.round()),
+        position: f64::from(align.iteration.round()),
         last: f64::from(last),
     };
     for input in scrubber.input(ui, &response) {
@@ -76,8 +80,8 @@ fn heading(
             if align.playback.button(ui) {
                 actions.push(AlignAction::TogglePlay);
             }
-            let (place, last) = (align.place.round() as usize, shown.last_place());
-            let mut text = text!("align-iteration-hint", place = place, last = last);
+            let (iteration, last) = (align.iteration.round() as usize, shown.last_iteration());
+            let mut text = text!("align-iteration-hint", iteration = iteration, last = last);
             let width = |text: &str, font| {
                 let painter = ui.painter();
                 let galley = painter.layout_no_wrap(text.to_owned(), font, Color32::PLACEHOLDER);
@@ -90,7 +94,7 @@ fn heading(
             ];
             let needed: f32 = texts.map(|(text, font)| width(text, font)).iter().sum();
             if needed > ui.available_width() {
-                text = text!("align-iteration", place = place, last = last);
+                text = text!("align-iteration", iteration = iteration, last = last);
             }
             ui.label(RichText::new(text).small().weak());
             ui.with_layout(Layout::left_to_right(Align::Center), |ui| {

@@ -169,9 +169,9 @@ fn shortly(time: Duration) -> String {
 fn columns(rect: Rect) -> impl Iterator<Item = (usize, f32)> {
     let num = PoseMethod::ALL.len();
     let width = ((rect.width() - NAMES_WIDTH_PX) / num as f32).min(MAX_COLUMN_WIDTH_PX);
-    (0..num).map(move |place| {
+    (0..num).map(move |index| {
         let right = rect.right() - 8.0;
-        (place, right - width * (num - 1 - place) as f32)
+        (index, right - width * (num - 1 - index) as f32)
     })
 }
 
@@ -188,11 +188,11 @@ fn header(ui: &mut Ui) {
         Align2::LEFT_CENTER,
         &text!("align-column-part"),
     );
-    for (place, x) in columns(rect) {
+    for (index, x) in columns(rect) {
         write(
             x,
             Align2::RIGHT_CENTER,
-            &plot::method_title(PoseMethod::ALL[place]),
+            &plot::method_title(PoseMethod::ALL[index]),
         );
     }
 }
@@ -200,7 +200,7 @@ fn header(ui: &mut Ui) {
 fn rows(ui: &mut Ui, align: &AlignState, session: &Session, actions: &mut Vec<AlignAction>) {
     let theme = Theme::of(ui);
     let mut part = "";
-    for (place, row) in align.table.rows.iter().enumerate() {
+    for (index, row) in align.table.rows.iter().enumerate() {
         if row.part != part {
             part = &row.part;
             let (rect, _) =
@@ -228,7 +228,7 @@ fn rows(ui: &mut Ui, align: &AlignState, session: &Session, actions: &mut Vec<Al
         paint_row(ui.painter(), rect, row, theme);
         focus_ring(ui, rect, &response);
         if response.clicked() {
-            actions.push(AlignAction::OpenRow(place));
+            actions.push(AlignAction::OpenRow(index));
         }
     }
 }
@@ -244,14 +244,14 @@ fn paint_row(painter: &Painter, rect: Rect, row: &TableRow, theme: &Theme) {
         font::body(),
         theme.weak_text,
     );
-    for ((place, x), cell) in columns(rect).zip(&row.cells) {
-        let (text, font, colour) = match (&cell.figures, row.is_best(place)) {
+    for ((index, x), cell) in columns(rect).zip(&row.cells) {
+        let (text, font, colour) = match (&cell.figures, row.is_best(index)) {
             (Ok(figures), true) => (short(figures.e_m2), font::body_strong(), theme.accepted),
             (Ok(figures), false) => (short(figures.e_m2), font::body(), theme.text),
             (Err(_), _) => (text!("align-none"), font::body(), theme.rejected),
         };
         let written = painter.text(pos2(x, y), Align2::RIGHT_CENTER, text, font, colour);
-        if row.is_best(place) {
+        if row.is_best(index) {
             tick(
                 painter,
                 written.left_center() - vec2(9.0, 0.0),
@@ -276,9 +276,9 @@ fn short(value: f64) -> String {
 /// Describes a row for a screen reader.
 fn spoken(row: &TableRow) -> String {
     let mut text = format!("{}, {}", row.title, Start::Paper(row.start).title());
-    for (place, cell) in row.cells.iter().enumerate() {
+    for (index, cell) in row.cells.iter().enumerate() {
         let name = plot::method_title(cell.method);
-        let best = if row.is_best(place) {
+        let best = if row.is_best(index) {
             format!(", {}", text!("align-best"))
         } else {
             String::new()

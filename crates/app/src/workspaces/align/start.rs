@@ -39,7 +39,7 @@ impl Start {
     /// Name for a person.
     pub fn title(self) -> String {
         match self {
-            Self::Paper(place) => format!("T{}", place + 1),
+            Self::Paper(index) => format!("T{}", index + 1),
             Self::Custom(_) => text!("align-custom-start"),
             Self::Random(seed) => text!("align-random-start", seed = seed),
         }
@@ -48,8 +48,8 @@ impl Start {
     /// The transform that moves the points.
     pub fn transform(self) -> RigidTransform {
         match self {
-            Self::Paper(place) => {
-                let numbers = DISPLACEMENTS.get(place).copied().unwrap_or_default();
+            Self::Paper(index) => {
+                let numbers = DISPLACEMENTS.get(index).copied().unwrap_or_default();
                 from_euler_zyx(numbers)
             }
             Self::Custom(transform) => transform,

@@ -45,8 +45,8 @@ pub struct AlignState {
     pub shown: Option<MethodComparison>,
     /// The pair being aligned, until its first method has run and it is shown.
     pub coming: Option<Arc<Pair>>,
-    /// Place on the scrubber, iterations.
-    pub place: f32,
+    /// Iteration that the scrubber is at.
+    pub iteration: f32,
     /// Whether the scrubber advances by itself.
     pub playback: Playback,
     /// Table I as far as computed.
@@ -124,7 +124,7 @@ impl AlignState {
             target: None,
             shown: None,
             coming: None,
-            place: 0.0,
+            iteration: 0.0,
             playback: Playback::default(),
             table: TableShown::default(),
             task: Task::new("align", runner),
@@ -248,13 +248,13 @@ impl AlignState {
                 self.run_table(cx);
             }
             AlignAction::OpenRow(row) => self.open_row(row, cx),
-            AlignAction::Scrub(place) => {
+            AlignAction::Scrub(iteration) => {
                 self.playback = Playback::Paused;
-                self.go_to(place);
+                self.go_to(iteration);
             }
-            AlignAction::Step(places) => {
+            AlignAction::Step(iterations) => {
                 self.playback = Playback::Paused;
-                self.go_to(self.place.round() + places);
+                self.go_to(self.iteration.round() + iterations);
             }
             AlignAction::TogglePlay => self.toggle_play(),
             AlignAction::Advance(seconds) => self.advance(seconds),

@@ -72,7 +72,7 @@ pub struct TableFigures {
 
 impl TableCell {
     /// Runs the method on a pair whose truth is known.
-    pub fn of(method: PoseMethod, pair: &Pair, is_cancelled: &dyn Fn() -> bool) -> Self {
+    pub fn run(method: PoseMethod, pair: &Pair, is_cancelled: &dyn Fn() -> bool) -> Self {
         let (aligned, time) = estimated(method, pair, is_cancelled);
         let figures = aligned.map(|estimate| {
             let error = pair.true_error(&estimate.target_from_source);
@@ -98,10 +98,10 @@ const ROUNDING: f64 = 1e-12;
 
 impl TableRow {
     /// True if no other cell has a smaller E, up to rounding; several cells may be best.
-    pub fn is_best(&self, place: usize) -> bool {
+    pub fn is_best(&self, index: usize) -> bool {
         let e = |cell: &TableCell| cell.figures.as_ref().map_or(f64::INFINITY, |f| f.e_m2);
         let least = self.cells.iter().map(e).fold(f64::INFINITY, f64::min);
-        let own = self.cells.get(place).map_or(f64::INFINITY, e);
+        let own = self.cells.get(index).map_or(f64::INFINITY, e);
         own.is_finite() && own <= least.max(ROUNDING)
     }
 }
@@ -210,7 +210,7 @@ mod tests {
     fn the_best_cells_have_the_smallest_e_and_a_row_without_poses_has_none() {
         let best = |row: &TableRow| -> Vec<usize> {
             (0..PoseMethod::ALL.len())
-                .filter(|place| row.is_best(*place))
+                .filter(|index| row.is_best(*index))
                 .collect()
         };
         let last = PoseMethod::ALL.len() - 1;

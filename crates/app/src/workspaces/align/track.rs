@@ -72,18 +72,18 @@ pub(super) fn estimated(
 
 impl MethodRun {
     /// Runs the method on the pair and records its track.
-    pub fn of(method: PoseMethod, pair: &Pair, is_cancelled: &dyn Fn() -> bool) -> Self {
+    pub fn run(method: PoseMethod, pair: &Pair, is_cancelled: &dyn Fn() -> bool) -> Self {
         let (aligned, time) = estimated(method, pair, is_cancelled);
         Self {
             method,
             time,
-            track: aligned.map(|estimate| Track::of(&estimate, pair)),
+            track: aligned.map(|estimate| Track::record(&estimate, pair)),
         }
     }
 }
 
 impl Track {
-    fn of(estimate: &PoseEstimate, pair: &Pair) -> Self {
+    fn record(estimate: &PoseEstimate, pair: &Pair) -> Self {
         let end = estimate.target_from_source;
         let steps = estimate.iterations.iter();
         let mut poses: Vec<RigidTransform> = steps.map(|step| step.target_from_source).collect();
@@ -109,10 +109,10 @@ impl Track {
     }
 
     /// Returns the pose of an iteration, or the final pose beyond the end.
-    pub fn pose_at(&self, place: usize) -> RigidTransform {
+    pub fn pose_at(&self, index: usize) -> RigidTransform {
         let last = self.poses.len().saturating_sub(1);
         self.poses
-            .get(place.min(last))
+            .get(index.min(last))
             .copied()
             .unwrap_or_else(RigidTransform::identity)
     }
@@ -146,10 +146,10 @@ fn e_along(poses: &[RigidTransform], pair: &Pair) -> Vec<f64> {
         .max(1);
     let last = poses.len().saturating_sub(1);
     let mut all: Vec<f64> = Vec::with_capacity(poses.len());
-    for (place, pose) in poses.iter().enumerate() {
-        let is_same = place > 0 && place < last && poses[place - 1] == *pose;
+    for (index, pose) in poses.iter().enumerate() {
+        let is_same = index > 0 && index < last && poses[index - 1] == *pose;
         let before = all.last().copied().filter(|_| is_same);
-        let step = if place == last { 1 } else { step };
+        let step = if index == last { 1 } else { step };
         all.push(before.unwrap_or_else(|| pair.e_m2_over(pose, step)));
     }
     all
@@ -157,12 +157,12 @@ fn e_along(poses: &[RigidTransform], pair: &Pair) -> Vec<f64> {
 
 /// Finds the ranges of iterations in which the genetic algorithm searched.
 fn searches(iterations: &[Iteration]) -> Vec<Range<usize>> {
-    let mut place = 0;
+    let mut index = 0;
     let stretches = iterations.chunk_by(|a, b| a.phase == b.phase);
     let stretches = stretches.map(|stretch| {
-        let first = place;
-        place += stretch.len();
-        (stretch[0].phase, first..place)
+        let first = index;
+        index += stretch.len();
+        (stretch[0].phase, first..index)
     });
     let genetic = stretches.filter(|(phase, _)| *phase == Phase::Genetic);
     genetic.map(|(_, stretch)| stretch).collect()

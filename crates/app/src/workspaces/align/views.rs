@@ -80,16 +80,16 @@ impl LinkedViews {
         ui.allocate_rect(all, egui::Sense::hover());
         let width = all.width() / self.views.len() as f32;
         self.put_in(shown, vec2(width, all.height() - head(width)));
-        for (place, view) in self.views.iter_mut().enumerate() {
-            let left = all.left() + place as f32 * width;
+        for (index, view) in self.views.iter_mut().enumerate() {
+            let left = all.left() + index as f32 * width;
             let rect = Rect::from_min_size(pos2(left, all.top()), vec2(width, all.height()));
             let cell = rect.shrink2(vec2(1.0, 0.0));
-            let builder = UiBuilder::new().max_rect(cell).id_salt(place);
+            let builder = UiBuilder::new().max_rect(cell).id_salt(index);
             ui.scope_builder(builder, |ui| {
                 ui.set_clip_rect(cell.intersect(ui.clip_rect()));
                 self.has_focus |= view.ui(ui, shown, &mut self.camera, align, session);
             });
-            if place > 0 {
+            if index > 0 {
                 ui.painter().vline(left, all.y_range(), theme.edge_stroke());
             }
         }
@@ -180,12 +180,12 @@ impl View {
                 false
             }
             Some(Ok(track)) => {
-                let place = align.place.round() as usize;
+                let index = align.iteration.round() as usize;
                 if let Some(source) = self.scene.points.first_mut() {
-                    source.world_from_set = mat4(&track.pose_at(place));
+                    source.world_from_set = mat4(&track.pose_at(index));
                 }
                 let has_focus = self.view(ui, body, camera, session.theme);
-                below(ui, body, track, place);
+                below(ui, body, track, index);
                 has_focus
             }
             None => {
@@ -275,18 +275,18 @@ fn doubts(track: &Track) -> String {
 }
 
 /// Draws over the view which iteration is shown, and doubts about the final pose.
-fn below(ui: &Ui, rect: Rect, track: &Track, place: usize) {
+fn below(ui: &Ui, rect: Rect, track: &Track, index: usize) {
     let theme = Theme::of(ui);
     let last = track.poses.len().saturating_sub(1);
-    let place = place.min(last);
+    let index = index.min(last);
     let painter = ui.painter_at(rect);
-    let e = track.e_m2.get(place).copied().unwrap_or(f64::NAN);
-    let text = if place == last {
+    let e = track.e_m2.get(index).copied().unwrap_or(f64::NAN);
+    let text = if index == last {
         text!("align-end", count = last)
     } else {
         text!(
             "align-iteration-e",
-            place = place,
+            iteration = index,
             last = last,
             e = scientific(e)
         )
@@ -299,7 +299,7 @@ fn below(ui: &Ui, rect: Rect, track: &Track, place: usize) {
         font::small(),
         theme.weak_text,
     );
-    if place == last && !track.doubts.is_empty() {
+    if index == last && !track.doubts.is_empty() {
         let width = rect.width() - 2.0 * space::MEDIUM;
         let galley = painter.layout(doubts(track), font::small(), theme.warning, width);
         let at = written.left_top() - vec2(0.0, galley.size().y + 4.0);

@@ -25,12 +25,12 @@ pub(super) fn pair(
     library_cache: &LibraryCache,
     context: &TaskContext<AlignResult>,
 ) -> Result<AlignResult, TaskError> {
-    let pair = Arc::new(Pair::of(source, library_cache)?);
+    let pair = Arc::new(Pair::load(source, library_cache)?);
     context.partial(AlignResult::Prepared(Arc::clone(&pair)));
     for (index, method) in PoseMethod::ALL.into_iter().enumerate() {
         context.progress(index, PoseMethod::ALL.len());
         context.check()?;
-        let run = MethodRun::of(method, &pair, &|| context.is_cancelled());
+        let run = MethodRun::run(method, &pair, &|| context.is_cancelled());
         context.check()?;
         context.partial(AlignResult::Ran(Arc::new(run)));
     }
@@ -60,7 +60,7 @@ pub(super) fn table(
             let mut cells = Vec::new();
             for method in PoseMethod::ALL {
                 context.check()?;
-                cells.push(TableCell::of(method, &pair, &|| context.is_cancelled()));
+                cells.push(TableCell::run(method, &pair, &|| context.is_cancelled()));
             }
             context.check()?;
             let row = TableRow {

@@ -132,7 +132,7 @@ fn verdict(ui: &mut Ui, compare: &CompareState, session: &Session) {
 pub(super) fn judged(compare: &CompareState) -> Option<CaseOutcome> {
     let truth = compare.truth.as_ref()?;
     let found = &compare.study.as_ref()?.found;
-    Some(CaseOutcome::of(truth, &found.answered()))
+    Some(CaseOutcome::new(truth, &found.answered()))
 }
 
 /// The sign of a verdict. A refusal never gets the mark of an accepted part, even if it is right.

@@ -118,8 +118,8 @@ fn row(ui: &mut Ui, distance: &PartDistance, is_against: bool, units: UnitSystem
     let title = fitted_middle(&painter, &distance.title, &name, end - inner.left());
     painter.text(inner.left_top(), Align2::LEFT_TOP, title, name, theme.text);
     let colours = [theme.first_series, theme.second_series];
-    for (place, (share, colour)) in distance.shares.iter().zip(colours).enumerate() {
-        let top = inner.top() + 20.0 + below + 7.0 * place as f32;
+    for (index, (share, colour)) in distance.shares.iter().zip(colours).enumerate() {
+        let top = inner.top() + 20.0 + below + 7.0 * index as f32;
         let track = Rect::from_min_size(pos2(inner.left(), top), vec2(inner.width(), 5.0));
         painter.rect_filled(track, 2.0, theme.track);
         let filled = vec2(inner.width() * share.clamp(0.0, 1.0), 5.0);

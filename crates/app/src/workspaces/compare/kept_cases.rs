@@ -247,7 +247,7 @@ fn of_cell(
     for result in cell
         .results
         .iter()
-        .filter_map(|place| run.results.get(*place))
+        .filter_map(|index| run.results.get(*index))
     {
         let found = &result.found;
         let what = match (&found.part, found.score, &found.reason) {

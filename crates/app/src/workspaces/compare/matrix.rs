@@ -47,7 +47,7 @@ impl Matrix {
             let row = rows.iter().position(|row| *row == cell.0)?;
             let column = columns.iter().position(|column| *column == cell.1)?;
             Some(MatrixCell {
-                judgement: CaseOutcome::of(&cell.0, &cell.1),
+                judgement: CaseOutcome::new(&cell.0, &cell.1),
                 place: [row, column],
                 cell,
                 results,

@@ -183,8 +183,8 @@ impl Picture {
 
     /// Draws names in the colours of their curves, one below the other.
     fn legend(&self, names: &[(&str, Color32)]) {
-        for (place, (name, colour)) in names.iter().enumerate() {
-            let at = self.inner.min + vec2(0.0, 14.0 * place as f32);
+        for (index, (name, colour)) in names.iter().enumerate() {
+            let at = self.inner.min + vec2(0.0, 14.0 * index as f32);
             self.text(at, Align2::LEFT_TOP, name, *colour);
         }
     }
@@ -225,8 +225,8 @@ impl Picture {
 /// Splits the rectangle into equal rows.
 fn rows(rect: Rect, num: usize) -> impl Iterator<Item = Rect> {
     let height = rect.height() / num as f32;
-    (0..num).map(move |place| {
-        let top = rect.top() + height * place as f32;
+    (0..num).map(move |index| {
+        let top = rect.top() + height * index as f32;
         Rect::from_min_size(pos2(rect.left(), top), vec2(rect.width(), height - 4.0))
     })
 }
@@ -247,7 +247,7 @@ fn correlation(ui: &mut Ui, correlation: &Correlation, area: Rect) {
     // Lags are further apart where the curve was thinned.
     let first = correlation.first_lag as f64;
     let per_value = -2.0 * first / last;
-    let lag_of = move |place: f64| (first + place * per_value).round();
+    let lag_of = move |index: f64| (first + index * per_value).round();
     let (name, middle) = match correlation.of {
         Correlated::Rays => (text!("compare-rays"), text!("compare-lag-zero-rays")),
         Correlated::Lengths => ("L, px²".to_owned(), text!("compare-lag-zero-pixels")),
@@ -259,10 +259,10 @@ fn correlation(ui: &mut Ui, correlation: &Correlation, area: Rect) {
         (last, lag_of(last).to_string()),
     ];
     let read = move |x: f64| {
-        let place = x.round().clamp(0.0, last);
-        let value = |values: &[f32]| values.get(place as usize).copied().unwrap_or_default();
+        let index = x.round().clamp(0.0, last);
+        let value = |values: &[f32]| values.get(index as usize).copied().unwrap_or_default();
         let [auto, cross] = [auto, cross].map(|values| format!("{:.decimals$}", value(values)));
-        let lag = lag_of(place).to_string();
+        let lag = lag_of(index).to_string();
         text!("compare-lag-read", lag = lag, auto = auto, cross = cross)
     };
     let axes = Axes {
@@ -279,7 +279,7 @@ fn correlation(ui: &mut Ui, correlation: &Correlation, area: Rect) {
     axes.show(ui, area, |plot| {
         let ends = auto.iter().zip(cross).enumerate();
         let ends: Vec<[f64; 3]> = ends
-            .map(|(place, (a, c))| [place as f64, f64::from(*a), f64::from(*c)])
+            .map(|(index, (a, c))| [index as f64, f64::from(*a), f64::from(*c)])
             .collect();
         let column = |which: usize| -> Vec<f64> { ends.iter().map(|row| row[which]).collect() };
         let between = FilledArea::new("", &column(0), &column(1), &column(2));

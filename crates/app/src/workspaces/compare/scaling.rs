@@ -73,33 +73,26 @@ pub struct Scaling {
 impl Scaling {
     /// Returns the number of references from which on all cores pay off; `None` if they never do, or there is only one.
     pub fn crossover(&self) -> Option<usize> {
-        let place = WORKERS.iter().rposition(|&w| w <= self.num_cores)?;
-        self.crossovers[place]
+        let index = WORKERS.iter().rposition(|&w| w <= self.num_cores)?;
+        self.crossovers[index]
     }
 }
 
 /// Why the measurement failed.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Advice)]
 pub enum ScalingError {
     /// A simulated part could not be enrolled.
     #[error(transparent)]
+    #[advice(transparent)]
     Enrol(#[from] EnrolError),
     /// The measurement was cancelled.
     #[error(transparent)]
+    #[advice = "Run it again"]
     Cancelled(#[from] Cancelled),
     /// The query has no outline.
     #[error("the simulated query shows no part")]
+    #[advice = "Report this: it is an error of the program"]
     NoQuery,
-}
-
-impl Advice for ScalingError {
-    fn advice(&self) -> String {
-        match self {
-            Self::Enrol(error) => error.advice(),
-            Self::Cancelled(_) => "Run it again".into(),
-            Self::NoQuery => "Report this: it is an error of the program".into(),
-        }
-    }
 }
 
 /// Ranks a simulated front door over 8, 16, 32 and so on up to `most` references.
@@ -141,7 +134,7 @@ pub fn scaling(
         after_row(&row);
         scaling.rows.push(row);
     }
-    scaling.crossovers = [0, 1, 2, 3].map(|place| crossover(&scaling.rows, place));
+    scaling.crossovers = [0, 1, 2, 3].map(|index| crossover(&scaling.rows, index));
     if matcher == Matcher::Default && most > EXHAUSTIVE_UP_TO {
         scaling.same_first = Some(same_first(&references, &params, watch)?);
     }
@@ -160,8 +153,8 @@ pub fn sizes(most: usize) -> Vec<usize> {
 const PAYING: f64 = 0.9;
 
 /// Returns the first of two consecutive sizes at which these workers pay off; a single one may be a disturbance.
-fn crossover(rows: &[ScalingRow], place: usize) -> Option<usize> {
-    let pays = |row: &ScalingRow| place > 0 && row.least_ms[place] < PAYING * row.least_ms[0];
+fn crossover(rows: &[ScalingRow], index: usize) -> Option<usize> {
+    let pays = |row: &ScalingRow| index > 0 && row.least_ms[index] < PAYING * row.least_ms[0];
     let mut pairs = rows.windows(2);
     let pair = pairs.find(|pair| pair.iter().all(pays))?;
     pair.first().map(|row| row.num_references)
@@ -283,7 +276,7 @@ mod tests {
             row(32, 0.8, 1.0),
             row(64, 0.7, 0.8),
         ];
-        let found = [0, 1, 2, 3].map(|place| crossover(&rows, place));
+        let found = [0, 1, 2, 3].map(|index| crossover(&rows, index));
         assert_eq!(found, [None, Some(32), None, Some(8)]);
     }
 }

@@ -84,8 +84,8 @@ fn plot(ui: &mut Ui, scaling: &Scaling) {
         theme.reference_series,
     ];
     let shown = axes.show(ui, all.shrink(8.0), |plot| {
-        for (place, (colour, style)) in colours.into_iter().zip(STYLES).enumerate() {
-            let times = rows.iter().map(|row| log(row.least_ms[place]));
+        for (index, (colour, style)) in colours.into_iter().zip(STYLES).enumerate() {
+            let times = rows.iter().map(|row| log(row.least_ms[index]));
             let points = sizes.iter().zip(times);
             let points = points.map(|(size, time)| [f64::from(*size), f64::from(time)]);
             let points: Vec<[f64; 2]> = points.collect();

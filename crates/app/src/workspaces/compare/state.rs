@@ -111,7 +111,7 @@ pub struct Cases {
 }
 
 impl Cases {
-    pub(super) fn of(folder: CaseFolder) -> Result<Self, CaseError> {
+    pub(super) fn read(folder: CaseFolder) -> Result<Self, CaseError> {
         let list = folder.list()?;
         Ok(Self {
             problems: list.problems.iter().map(UserError::of).collect(),

@@ -196,8 +196,8 @@ pub fn study(
     let against = against(request, truth.as_ref(), &inspection, library);
     let titles = shown.reference_titles();
     let reference_title = |name: &str| {
-        let place = shown.place_of(name)?;
-        titles.get(place).cloned()
+        let index = shown.place_of(name)?;
+        titles.get(index).cloned()
     };
     let mut study = CaseStudy {
         doubts: doubts(&scene, &inspection, inspected.as_deref(), &request.recipe),

@@ -239,7 +239,7 @@ fn change_cases(
             CaseDone::TruthSet { name, before }
         }
     };
-    Ok((Cases::of(folder)?, problem, done))
+    Ok((Cases::read(folder)?, problem, done))
 }
 
 fn run_cases(
@@ -249,7 +249,7 @@ fn run_cases(
     context: &TaskContext<CompareResult>,
 ) -> Result<CompareResult, TaskError> {
     let loaded = library_cache.get();
-    let cases = Cases::of(folder.clone()).map_err(|error| UserError::of(&error))?;
+    let cases = Cases::read(folder.clone()).map_err(|error| UserError::of(&error))?;
     let library = loaded.fitting(recipe, context);
     let library = library.ok_or(TaskError::Cancelled)?;
     let order = library.references.iter().map(|r| r.name.clone());

@@ -27,10 +27,10 @@ pub(super) fn ui(
 ) {
     let theme = Theme::of(ui);
     let library = session.library.as_deref();
-    let place = library.and_then(|library| library.place_of(open.name.as_str()));
+    let index = library.and_then(|library| library.place_of(open.name.as_str()));
     let part = library
-        .zip(place)
-        .and_then(|(library, place)| library.parts.get(place));
+        .zip(index)
+        .and_then(|(library, index)| library.parts.get(index));
     let can_change = library.is_some_and(|library| library.is_fixed.is_none());
     let can_change = can_change && !enrol.is_changing_library();
     // The scroll bar is beside the fields, not over them.
@@ -46,10 +46,10 @@ pub(super) fn ui(
             let size = vec2(ui.available_width(), 120.0);
             let (rect, _) = ui.allocate_exact_size(size, egui::Sense::hover());
             ui.painter().rect_filled(rect, ROUNDING, theme.canvas);
-            if let Some(texture) = place.and_then(|place| thumbnails.of_part(place)) {
+            if let Some(texture) = index.and_then(|index| thumbnails.of_part(index)) {
                 paint_fitted(ui.painter(), texture, rect.shrink(2.0));
             }
-            let number = library.and_then(|library| library.numbers.of(&part.name));
+            let number = library.and_then(|library| library.numbers.number_of(&part.name));
             origin(ui, part, number);
             ui.add_space(space::SMALL);
             ui.add_enabled_ui(can_change, |ui| {

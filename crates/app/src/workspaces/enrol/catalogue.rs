@@ -55,7 +55,7 @@ impl Catalogue {
             return;
         }
         let mut order: Vec<usize> = (0..library.parts.len()).collect();
-        order.sort_by_cached_key(|place| library.title(*place).to_lowercase());
+        order.sort_by_cached_key(|index| library.title(*index).to_lowercase());
         self.sorted = Some((Arc::clone(library), order));
     }
 
@@ -101,8 +101,8 @@ impl Catalogue {
                 }
                 let parts = order
                     .iter()
-                    .filter_map(|place| Some((*place, library.parts.get(*place)?)));
-                for (place, part) in parts {
+                    .filter_map(|index| Some((*index, library.parts.get(*index)?)));
+                for (index, part) in parts {
                     let latest = enrol.latest.as_ref();
                     let latest = latest.filter(|latest| latest.name == part.name);
                     let reference_of = part.reference_of().map(|of| library.title_of(of.as_str()));
@@ -113,7 +113,7 @@ impl Catalogue {
                         name: part.name.as_str(),
                         title: part.shown_title(),
                         below: [day, beneath],
-                        texture: thumbnails.of_part(place),
+                        texture: thumbnails.of_part(index),
                         is_damaged: false,
                         latest: latest.map(|latest| latest.what.shown()),
                         reference_of,

@@ -52,7 +52,7 @@ pub struct PartVersion {
 }
 
 impl PartVersion {
-    fn of(name: PartName, folder: &LibraryFolder) -> Self {
+    fn current(name: PartName, folder: &LibraryFolder) -> Self {
         Self {
             version: folder.version_of(&name),
             name,
@@ -89,7 +89,7 @@ pub(super) fn change(
     let folder = loaded.folder_to_change()?;
     let title_of = |name: &PartName| loaded.shown.title_of(name.as_str()).to_owned();
     if let Some(left) = left
-        && PartVersion::of(left.name.clone(), folder) != *left
+        && PartVersion::current(left.name.clone(), folder) != *left
     {
         return Err(UserError {
             what: text!("enrol-changed-since", part = title_of(&left.name)),
@@ -116,7 +116,7 @@ pub(super) fn change(
     };
     let done = make(&change, folder, &title_of).map_err(|error| UserError::of(&error))?;
     let (what, back, name) = done;
-    let left = PartVersion::of(name.clone(), folder);
+    let left = PartVersion::current(name.clone(), folder);
     let is_there = !matches!(change, LibraryChange::Remove(_));
     let library = library_cache
         .reload()

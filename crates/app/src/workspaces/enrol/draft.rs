@@ -161,8 +161,8 @@ impl Form {
 
     /// Title of the enrolled part of this name.
     pub fn namesake<'a>(&self, library: &'a LibraryView) -> Option<&'a str> {
-        let place = library.place_of(&self.name)?;
-        Some(library.title(place))
+        let index = library.place_of(&self.name)?;
+        Some(library.title(index))
     }
 }
 

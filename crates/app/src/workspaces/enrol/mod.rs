@@ -159,8 +159,8 @@ impl Workspace for EnrolWorkspace {
         SHORTCUTS.iter().map(|shortcut| shortcut.binding).collect()
     }
 
-    fn press(&mut self, place: usize, cx: &mut ShellContext<'_>) {
-        if let Some(shortcut) = SHORTCUTS.get(place) {
+    fn press(&mut self, index: usize, cx: &mut ShellContext<'_>) {
+        if let Some(shortcut) = SHORTCUTS.get(index) {
             self.state.apply((shortcut.action)(), cx);
         }
     }

@@ -91,7 +91,7 @@ impl DrawnOutline {
             DrawnOver::Picture => {
                 let [width, height] = subject.picture.size().map(|side| side as f32);
                 let pixels = points.enumerate();
-                let pixels = pixels.map(|(place, point)| subject.picture.pixel(place, point));
+                let pixels = pixels.map(|(index, point)| subject.picture.pixel(index, point));
                 let middles = pixels.map(|[column, row]| {
                     Vec2::new((column as f32 + 0.5) / width, (row as f32 + 0.5) / height)
                 });

@@ -182,12 +182,12 @@ pub(super) fn drag_to_draw(shape: DrawnShape) -> String {
 
 /// Keeps the segment if all of it is dropped, else drops it.
 pub(super) fn toggled(draft: &Draft, segment: u16) -> Option<Edit> {
-    let place = usize::from(segment);
-    let num_kept = *draft.selection.kept_of.get(place)?;
+    let index = usize::from(segment);
+    let num_kept = *draft.selection.kept_of.get(index)?;
     let fate = if num_kept == 0 {
         PointAction::Kept
     } else {
         PointAction::Dropped
     };
-    Some(Edit::Segment(place, fate))
+    Some(Edit::Segment(index, fate))
 }

@@ -62,9 +62,9 @@ impl PicturePlane {
     }
 
     /// Returns column and row of a point, given its index and coordinates.
-    pub fn pixel(&self, place: usize, point: &Point3<f32>) -> [usize; 2] {
+    pub fn pixel(&self, index: usize, point: &Point3<f32>) -> [usize; 2] {
         match self {
-            Self::Camera(grid) => [place % grid.width, place / grid.width],
+            Self::Camera(grid) => [index % grid.width, index / grid.width],
             Self::Front {
                 size,
                 low,

@@ -16,7 +16,7 @@ pub struct ScannedMatter {
     /// The part and its surroundings, in the camera frame of the first shot used.
     pub cloud: PointCloud,
     /// Index of each of these points in the scan's cloud.
-    places: Vec<u32>,
+    indices: Vec<u32>,
 }
 
 /// Points further than this from the part's bounding box are left out, metres.
@@ -38,14 +38,14 @@ impl ScannedMatter {
             None => true,
         };
         let near = points().enumerate().filter(|(_, point)| is_near(point));
-        let (places, points): (Vec<u32>, Vec<Point3<f32>>) =
-            near.map(|(place, point)| (place as u32, point)).unzip();
+        let (indices, points): (Vec<u32>, Vec<Point3<f32>>) =
+            near.map(|(index, point)| (index as u32, point)).unzip();
         Self {
             cloud: PointCloud {
                 is_simulated: fused.scan.cloud.cloud.is_simulated,
                 ..PointCloud::from_points(points)
             },
-            places,
+            indices,
             fused,
         }
     }
@@ -53,8 +53,8 @@ impl ScannedMatter {
     /// Indices of the points that the shots voted to be the part, or of the others.
     pub(super) fn voted(&self, is_part: bool) -> Vec<u32> {
         let all = &self.fused.scan.cloud.is_part;
-        let of = self.places.iter().enumerate();
-        of.filter(|(_, place)| all[**place as usize] == is_part)
+        let of = self.indices.iter().enumerate();
+        of.filter(|(_, index)| all[**index as usize] == is_part)
             .map(|(index, _)| index as u32)
             .collect()
     }
@@ -64,7 +64,7 @@ impl ScannedMatter {
         let scan = &self.fused.scan;
         let mut is_part = vec![false; scan.cloud.is_part.len()];
         for index in kept {
-            is_part[self.places[*index as usize] as usize] = true;
+            is_part[self.indices[*index as usize] as usize] = true;
         }
         if is_part == scan.cloud.is_part {
             return Cow::Borrowed(scan);

@@ -118,7 +118,7 @@ impl Segments {
         }
         for plane in 0..found.planes.len() as u8 {
             let is_on = |label: &PointLabel| *label == PointLabel::Background(plane);
-            let indices = places(found.labels.iter().map(is_on));
+            let indices = indices_where(found.labels.iter().map(is_on));
             let title = SegmentTitle::Background(usize::from(plane) + 1);
             let kind = SegmentKind::Plane(plane);
             all.add(kind, title, PointAction::Dropped, &indices);
@@ -156,9 +156,9 @@ impl Segments {
         if indices.is_empty() {
             return;
         }
-        let place = self.list.len() as u16;
+        let segment = self.list.len() as u16;
         for index in indices {
-            self.of_point[*index as usize] = place;
+            self.of_point[*index as usize] = segment;
         }
         self.list.push(Segment {
             kind,
@@ -171,13 +171,13 @@ impl Segments {
     /// Adds the readings that are in no segment yet.
     fn add_specks(&mut self, scene: &SceneCloud, usual: PointAction) {
         let points = scene.cloud.points.iter().zip(&self.of_point);
-        let indices = places(points.map(|(p, of)| *of == Self::NONE && is_finite(p)));
+        let indices = indices_where(points.map(|(p, of)| *of == Self::NONE && is_finite(p)));
         self.add(SegmentKind::Specks, SegmentTitle::Specks, usual, &indices);
     }
 }
 
 /// Indices of the `true` items.
-fn places(all: impl Iterator<Item = bool>) -> Vec<u32> {
+fn indices_where(all: impl Iterator<Item = bool>) -> Vec<u32> {
     let there = all.enumerate().filter(|(_, is_there)| *is_there);
-    there.map(|(place, _)| place as u32).collect()
+    there.map(|(index, _)| index as u32).collect()
 }

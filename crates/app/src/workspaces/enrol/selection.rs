@@ -137,9 +137,9 @@ fn kept(subject: &EnrolInput, corrections: &Corrections) -> Vec<bool> {
     let mut kept: Vec<bool> = of_point.iter().map(is_usual).collect();
     for edit in &corrections.edits {
         match edit {
-            Edit::Segment(place, fate) => {
+            Edit::Segment(segment, fate) => {
                 let of_it = of_point.iter().zip(&mut kept);
-                for (_, kept) in of_it.filter(|(of, _)| usize::from(**of) == *place) {
+                for (_, kept) in of_it.filter(|(of, _)| usize::from(**of) == *segment) {
                     *kept = *fate == PointAction::Kept;
                 }
             }
@@ -184,15 +184,15 @@ fn picture(
     let cloud = subject.cloud();
     let mut seen: Vec<Option<u32>> = vec![None; width * height];
     let (mut nearest, mut farthest) = (f32::INFINITY, f32::NEG_INFINITY);
-    for (place, point) in cloud.finite() {
+    for (index, point) in cloud.finite() {
         (nearest, farthest) = (nearest.min(point.z), farthest.max(point.z));
-        let [column, row] = subject.picture.pixel(place, point);
+        let [column, row] = subject.picture.pixel(index, point);
         let about = |at: usize, end: usize| at.saturating_sub(spread)..=(at + spread).min(end - 1);
         for row in about(row, height) {
             for column in about(column, width) {
                 let slot = &mut seen[row * width + column];
                 if slot.is_none_or(|other| point.z < cloud.points[other as usize].z) {
-                    *slot = Some(place as u32);
+                    *slot = Some(index as u32);
                 }
             }
         }
@@ -200,10 +200,10 @@ fn picture(
     let range = (farthest - nearest).max(1e-3);
     let colours = ViewColours::dark();
     let colour_at = |pixel: usize| -> Option<Rgb<u8>> {
-        let place = seen[pixel]? as usize;
-        let role = Role::of(*labels.get(place)?);
+        let index = seen[pixel]? as usize;
+        let role = Role::of(*labels.get(index)?);
         let colour = colours.role(role).colour;
-        let nearness = 1.0 - (cloud.points[place].z - nearest) / range;
+        let nearness = 1.0 - (cloud.points[index].z - nearest) / range;
         // The 3-D view shades these colours by its light; here nearness does.
         let brightness = match role {
             Role::Part => 0.75 + 0.25 * nearness,
@@ -216,10 +216,10 @@ fn picture(
     let image = RgbImage::from_fn(width as u32, height as u32, |u, v| {
         colour_at(v as usize * width + u as usize).unwrap_or(Rgb([0; 3]))
     });
-    let is_read = |place: &u32| is_finite(&cloud.points[*place as usize]);
+    let is_read = |index: &u32| is_finite(&cloud.points[*index as usize]);
     let segment = |slot: &Option<u32>| {
-        let place = slot.filter(is_read);
-        place.map_or(Segments::NONE, |place| segments.of_point[place as usize])
+        let index = slot.filter(is_read);
+        index.map_or(Segments::NONE, |index| segments.of_point[index as usize])
     };
     (image, seen.iter().map(segment).collect())
 }
@@ -309,8 +309,8 @@ mod tests {
     fn kept_pixels_are_brighter_than_dropped_ones_and_know_their_segment() {
         let subject = captured();
         let selection = with(&subject, &[]);
-        let brightness = |place: u32| {
-            let pixel = selection.picture.get_pixel(place % 640, place / 640);
+        let brightness = |index: u32| {
+            let pixel = selection.picture.get_pixel(index % 640, index / 640);
             pixel.0.iter().map(|c| u32::from(*c)).sum::<u32>()
         };
         let is_kept = |i: &u32| selection.indices.binary_search(i).is_ok();

@@ -150,7 +150,7 @@ impl EnrolState {
             Some(draft) => &draft.form.name,
             None => self.replacing.as_ref()?.as_str(),
         };
-        library.place_of(name).map(|place| library.title(place))
+        library.place_of(name).map(|index| library.title(index))
     }
 
     /// True while another draft is being prepared.

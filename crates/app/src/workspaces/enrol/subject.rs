@@ -269,8 +269,8 @@ mod tests {
             let segments = subject.segments(taking);
             let in_lists: usize = segments.list.iter().map(|s| s.num_points).sum();
             assert_eq!(in_lists, subject.cloud().num_finite(), "{taking:?}");
-            for (place, segment) in segments.list.iter().enumerate() {
-                let of_it = segments.of_point.iter().filter(|of| **of == place as u16);
+            for (index, segment) in segments.list.iter().enumerate() {
+                let of_it = segments.of_point.iter().filter(|of| **of == index as u16);
                 assert_eq!(of_it.count(), segment.num_points, "{:?}", segment.title);
             }
         }

@@ -48,8 +48,8 @@ impl Thumbnails {
     }
 
     /// Texture of the enrolled part at this index.
-    pub(super) fn of_part(&self, place: usize) -> Option<&TextureHandle> {
-        self.library.as_ref()?.1.get(place)?.as_ref()
+    pub(super) fn of_part(&self, index: usize) -> Option<&TextureHandle> {
+        self.library.as_ref()?.1.get(index)?.as_ref()
     }
 
     /// Texture of the part that would be stored.

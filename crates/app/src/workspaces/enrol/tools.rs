@@ -145,13 +145,13 @@ pub(super) fn segments(ui: &mut Ui, draft: &Draft, actions: &mut Vec<EnrolAction
     // The vertical wheel scrolls it as well.
     ui.style_mut().always_scroll_the_only_direction = true;
     // Until another choice has been applied, the selection is that of the former one.
-    let kept_of = |place: usize| draft.selection.kept_of.get(place).copied().unwrap_or(0);
+    let kept_of = |index: usize| draft.selection.kept_of.get(index).copied().unwrap_or(0);
     ScrollArea::horizontal()
         .auto_shrink([false, true])
         .show(ui, |ui| {
             ui.horizontal(|ui| {
-                for (place, segment) in segments.list.iter().enumerate() {
-                    let num_kept = kept_of(place);
+                for (index, segment) in segments.list.iter().enumerate() {
+                    let num_kept = kept_of(index);
                     let (title, all) = (segment.title.shown(), grouped(segment.num_points));
                     let (word, text) = if num_kept == 0 {
                         let word = text!("enrol-dropped");
@@ -181,7 +181,7 @@ pub(super) fn segments(ui: &mut Ui, draft: &Draft, actions: &mut Vec<EnrolAction
                         _ => (text!("enrol-drop-it"), PointAction::Dropped),
                     };
                     if response.on_hover_text(hint).clicked() {
-                        let edit = Edit::Segment(place, fate);
+                        let edit = Edit::Segment(index, fate);
                         actions.push(EnrolAction::Correct(edit));
                     }
                 }

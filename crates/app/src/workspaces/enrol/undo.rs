@@ -311,7 +311,7 @@ impl EnrolState {
         let steps = done.iter().enumerate().rev();
         let mut since_save = steps.take_while(|(_, step)| !is_save(step));
         let next = since_save.find(|(_, step)| of_draft(step));
-        next.map(|(place, _)| place)
+        next.map(|(index, _)| index)
     }
 
     /// Undoes that step.
@@ -320,8 +320,8 @@ impl EnrolState {
         if self.is_changing_library() {
             return;
         }
-        if let Some(place) = self.next_undo() {
-            let step = self.steps.done.remove(place);
+        if let Some(index) = self.next_undo() {
+            let step = self.steps.done.remove(index);
             self.steps.done.push(step);
             self.apply_step(UndoDirection::Undo, cx);
         }

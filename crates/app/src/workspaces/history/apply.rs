@@ -40,7 +40,7 @@ impl HistoryState {
             HistoryAction::Step(direction) if self.runs.is_some() => self.step_run(direction, cx),
             HistoryAction::OpenSelected | HistoryAction::AgainSelected if self.runs.is_some() => {}
             HistoryAction::Step(direction) => {
-                let at = self.listed().and_then(|number| self.place_of(number));
+                let at = self.listed().and_then(|number| self.index_of(number));
                 let to = match (at, direction) {
                     (None, _) => 0,
                     (Some(at), Direction::Up) => at.saturating_sub(1),
@@ -227,6 +227,7 @@ impl HistoryState {
                 self.answered();
                 cx.notify(UserError { what, advice });
             }
+            HistoryEvent::FramesNotKept { what, advice } => cx.notify(UserError { what, advice }),
             HistoryEvent::Swept(PruneResult {
                 num_frames,
                 num_bytes,

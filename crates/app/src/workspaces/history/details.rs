@@ -264,13 +264,14 @@ fn figures(ui: &mut Ui, record: &Record) {
     row(text!("inspect-recipe"), &recipe_text(detail));
     row(text!("history-figure-library"), &detail.library_identity);
     row(text!("history-figure-program"), &detail.program);
-    let frame = summary.frame_bytes.map_or_else(
-        || text!("history-frame-not-kept"),
-        |bytes| {
+    let frame = match (summary.frame_bytes, &detail.frame_loss) {
+        (Some(bytes), _) => {
             let megabytes = format!("{:.1}", bytes as f64 / 1e6);
             text!("history-frame-kept", megabytes = megabytes)
-        },
-    );
+        }
+        (None, Some(why)) => text!("history-frame-lost", why = described(why)),
+        (None, None) => text!("history-frame-not-kept"),
+    };
     row(text!("history-figure-frame"), &frame);
 }
 

@@ -88,7 +88,7 @@ impl ListFilter {
             day.ok().map(|day| day.timestamp())
         };
         let days_before = |days: i64| now.date().checked_sub(Span::new().days(days)).ok();
-        let typed = |place: usize| day_of(&self.typed[place]).ok().flatten();
+        let typed = |index: usize| day_of(&self.typed[index]).ok().flatten();
         let (since, until): (Option<Timestamp>, Option<Timestamp>) = match self.days {
             DateRange::All => (None, None),
             DateRange::Today => (begin(now.date()), None),
@@ -113,6 +113,8 @@ impl ListFilter {
             is_simulated: None,
             source: None,
             rack: None,
+            order: None,
+            serial: None,
             with_below: false,
             text: self.text.clone(),
             shown,

@@ -78,8 +78,8 @@ impl List {
         let listed = history.listed();
         area.show_rows(ui, ROW_HEIGHT_PX, num_rows, |ui, visible| {
             seen = visible.clone();
-            for place in visible {
-                match history.row(place) {
+            for index in visible {
+                match history.row(index) {
                     Some(past) => row(ui, past, listed, &layout, session, actions),
                     None => {
                         ui.allocate_exact_size(
@@ -97,19 +97,19 @@ impl List {
     /// Scroll offset that shows the selected row if the keys or the program have selected one out of sight.
     fn offset_to(&mut self, history: &HistoryState, height: f32) -> Option<f32> {
         let selected = (history.listed(), history.num_reselected);
-        let place = history.place_of_listed();
+        let index = history.index_of_listed();
         // The place of an old row is known once its inspection is fetched.
-        if selected == self.selected || selected.0.is_some() && place.is_none() {
+        if selected == self.selected || selected.0.is_some() && index.is_none() {
             return None;
         }
         self.selected = selected;
-        let place = place?;
+        let index = index?;
         // The last visible row is often cut off.
-        let is_in_sight = self.seen.start < place && place + 2 < self.seen.end;
+        let is_in_sight = self.seen.start < index && index + 2 < self.seen.end;
         if is_in_sight {
             return None;
         }
-        let top = place as f32 * (ROW_HEIGHT_PX + ROW_GAP_PX);
+        let top = index as f32 * (ROW_HEIGHT_PX + ROW_GAP_PX);
         let now = self.seen.start as f32 * (ROW_HEIGHT_PX + ROW_GAP_PX);
         Some(if top <= now {
             (top - ROW_HEIGHT_PX).max(0.0)
@@ -375,9 +375,9 @@ fn paint(painter: &Painter, rect: Rect, past: &Summary, layout: &Layout, theme: 
         painter.circle(at + vec2(8.0, 7.0), 4.5, theme.accent, edge);
     }
     let serial = &past.trace.serial;
-    for (place, (column, span)) in layout.columns().enumerate() {
+    for (index, (column, span)) in layout.columns().enumerate() {
         let mut line = rect;
-        if place == 0 && !serial.is_empty() {
+        if index == 0 && !serial.is_empty() {
             // Below the part, where there is room for the 17 letters of a vehicle's number.
             let below;
             (line, below) = rect.split_top_bottom_at_fraction(0.5);

@@ -192,21 +192,21 @@ impl HistoryState {
     }
 
     /// Returns the row at this index of the list, if fetched.
-    pub fn row(&self, place: usize) -> Option<&Summary> {
-        self.page.rows.get(place.checked_sub(self.first)?)
+    pub fn row(&self, index: usize) -> Option<&Summary> {
+        self.page.rows.get(index.checked_sub(self.first)?)
     }
 
     /// Index of an inspection in the list, if its row is fetched.
-    pub fn place_of(&self, number: i64) -> Option<usize> {
+    pub fn index_of(&self, number: i64) -> Option<usize> {
         let mut rows = self.page.rows.iter();
         Some(self.first + rows.position(|row| row.number == number)?)
     }
 
     /// Index of the selected row in the list, once known.
-    pub(super) fn place_of_listed(&self) -> Option<usize> {
+    pub(super) fn index_of_listed(&self) -> Option<usize> {
         let listed = self.listed()?;
         let far = self.far_row.filter(|(number, _)| *number == listed);
-        self.place_of(listed).or(far.map(|(_, place)| place))
+        self.index_of(listed).or(far.map(|(_, index)| index))
     }
 
     /// The inspection in full, if it is the one fetched last.

@@ -310,12 +310,12 @@ fn shifts(ui: &mut Ui, all: &[(Zoned, Tally)]) {
     let step = last.len().div_ceil(room).max(1);
     let marks = last.iter().enumerate().step_by(step);
     let marks =
-        marks.map(|(place, (start, _))| (place as f64, start.strftime("%m-%d %H:%M").to_string()));
+        marks.map(|(index, (start, _))| (index as f64, start.strftime("%m-%d %H:%M").to_string()));
     let bars = |height: fn(&Tally) -> usize, offset: fn(&Tally) -> usize| -> Vec<Bar> {
-        let places = last.iter().enumerate();
-        places
-            .map(|(place, (_, tally))| {
-                Bar::new(place as f64, height(tally) as f64)
+        let shifts = last.iter().enumerate();
+        shifts
+            .map(|(index, (_, tally))| {
+                Bar::new(index as f64, height(tally) as f64)
                     .base_offset(offset(tally) as f64)
                     .width(0.7)
             })
@@ -335,8 +335,8 @@ fn shifts(ui: &mut Ui, all: &[(Zoned, Tally)]) {
         ),
         font: font::small(),
         read: Some(Box::new(move |x| {
-            let place = x.round().max(0.0) as usize;
-            words.get(place).cloned().unwrap_or_default()
+            let index = x.round().max(0.0) as usize;
+            words.get(index).cloned().unwrap_or_default()
         })),
     };
     let colours = [theme.accepted, theme.rejected];

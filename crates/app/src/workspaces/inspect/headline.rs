@@ -4,17 +4,13 @@ use egui::{Color32, FontId, RichText, Ui};
 
 use super::hold::Hold;
 use crate::shared::truth_title;
-use inspection::pipeline::{Rejection, Verdict, is_like, live::MotionState};
+use inspection::pipeline::{Identification, Verdict, live::MotionState};
 use records::history::StoredVerdict;
-use shell::{
-    inspection::inspected::Inspected,
-    language::{accepted_or_not, is_called_by_name},
-    session::Session,
-};
+use shell::{inspection::inspected::Inspected, language::accepted_or_not, session::Session};
 use station::Doubt;
 use texts::Described as _;
 use ui::{
-    language::{Message, advised, described, text},
+    language::{Language, Message, advised, described, text},
     theme::{Theme, font, space},
     widgets::{Mark, line_mark, sentence, wrapped},
 };
@@ -121,7 +117,6 @@ impl Headline {
                 };
             }
         };
-        let best = inspected.figures.candidates.first();
         let nearest = inspected.part_title().unwrap_or_default().to_owned();
         let Some(reason) = rejected else {
             let hold = Hold::of(session, inspected, session.role);
@@ -140,31 +135,18 @@ impl Headline {
                 ..Self::default()
             };
         };
-        let (title, nearest) = match reason {
-            // The type is certain; model or make differs.
-            Rejection::AnotherMake { .. } => (text!("inspect-another-make", part = nearest), None),
-            Rejection::AnotherModel { .. } => {
-                (text!("inspect-another-model", part = nearest), None)
-            }
-            _ if is_called_by_name(verdict, &inspected.recipe.accept) => (nearest, None),
-            // Do not show an uncertain name in large letters.
-            _ => {
-                let title = if verdict.is_unknown() {
-                    text!("inspect-unknown-part")
-                } else {
-                    text!("inspect-not-recognised")
-                };
-                // The reason names the part that it is the mirror image of.
-                let is_nearest_named = !verdict.is_mirrored()
-                    && best.is_none_or(|best| is_like(f64::from(best.score)));
-                (title, is_nearest_named.then_some(nearest))
-            }
-        };
+        let found = verdict.identification(&inspected.recipe.accept);
+        // Do not show an uncertain name in large letters.
+        let title = found.heading(&nearest, Language::current());
+        let title = title.unwrap_or_else(|| match found {
+            Identification::NotRecognised => text!("inspect-not-recognised"),
+            _ => text!("inspect-unknown-part"),
+        });
         let title_of = |name: &str| inspected.library.title_of(name).to_owned();
         let why = reason.message().with_titles(title_of);
         Self {
             title,
-            nearest,
+            nearest: found.names_nearest().then_some(nearest),
             complaint: Some((described(&why), advised(&why))),
             ..Self::default()
         }
@@ -258,7 +240,10 @@ fn fitting_font(ui: &Ui, name: &str, fonts: &[FontId], max_lines: usize) -> Font
 #[cfg(test)]
 mod tests {
     use super::*;
-    use inspection::{library::Truth, pipeline::live::LiveVerdict};
+    use inspection::{
+        library::Truth,
+        pipeline::{Rejection, live::LiveVerdict},
+    };
     use shell::inspection::{
         inspected::{LiveFrameContext, inspected_cell},
         source::CellChoice,
@@ -313,6 +298,25 @@ mod tests {
         };
         let headline = Headline::of(&found, &session);
         assert_eq!(headline.nearest.as_deref(), Some("Front door, left"));
+    }
+
+    #[test]
+    fn a_mirror_image_is_called_so_even_if_the_part_itself_fits_nearly_as_well() {
+        let mut found = inspected_cell(CellChoice::InTurn, 1);
+        let part = || "front_door".to_owned();
+        found.inspection.verdict = Verdict::Part {
+            part: part(),
+            score: 0.97,
+            margin: 0.97,
+            rejected: Some(Rejection::MirroredImage {
+                part: part(),
+                score: 0.99,
+            }),
+            is_approximate: false,
+        };
+        let headline = Headline::of(&found, &Session::default());
+        assert_eq!(headline.title, "Mirror image of Front door, left");
+        assert_eq!(headline.nearest, None);
     }
 
     #[test]

@@ -23,18 +23,16 @@ use egui::{Align2, Frame, Key, Margin, Modifiers, Panel, Rect, TextureHandle, Ui
 
 use self::view::SceneView;
 pub use self::{
-    action::{InspectAction, InspectFile},
-    state::{InspectState, ViewPart},
+    state::{InspectAction, InspectFile, InspectState, ViewPart},
     view::WorkCounts,
 };
 use crate::shots::{ShotList, ShotsAction, ShotsFile, ShownShots, StripTab};
 use capture::SourceSpec;
 use shell::{
     action::Event,
-    context::ShellContext,
-    inspection::{fuse::FusedShots, inspected::Inspected},
+    inspection::{inspected::Inspected, scan::FusedShots},
     session::{Session, Shown, WorkspaceKind},
-    workspace::Workspace,
+    workspace::{ShellContext, Workspace},
 };
 use ui::{
     key_binding::{CTRL_SHIFT, KeyBinding, Shortcut},
@@ -292,8 +290,8 @@ impl Workspace for InspectWorkspace {
         SHORTCUTS.iter().map(|shortcut| shortcut.binding).collect()
     }
 
-    fn press(&mut self, place: usize, cx: &mut ShellContext<'_>) {
-        if let Some(shortcut) = SHORTCUTS.get(place) {
+    fn press(&mut self, index: usize, cx: &mut ShellContext<'_>) {
+        if let Some(shortcut) = SHORTCUTS.get(index) {
             self.state.apply((shortcut.action)(), cx);
         }
     }

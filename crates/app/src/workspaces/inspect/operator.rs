@@ -15,7 +15,6 @@ use crate::workspaces::inspect::state::InspectAction;
 use records::history::StoredVerdict;
 use shell::{
     frame::bars::column_width,
-    language::{mirror_image, recognised_part},
     session::{Session, past_mark},
     trace::{entry, expecting},
 };
@@ -224,7 +223,7 @@ fn next_ui(ui: &mut Ui, banner: &Banner, room: f32) {
     };
     let is_long = banner.next.chars().count() > LONG;
     let smallest = types.len() - 1;
-    let fitting = (usize::from(is_long)..smallest).find(|place| height(&types[*place]) <= room);
+    let fitting = (usize::from(is_long)..smallest).find(|index| height(&types[*index]) <= room);
     let [next, caution] = &types[fitting.unwrap_or(smallest)];
     // A caution is worth more than the part before the last.
     let is_short = height(&types[smallest]) > room && !banner.caution.is_empty();
@@ -291,17 +290,16 @@ fn column(ui: &mut Ui, banner: &Banner, session: &Session, actions: &mut Vec<Ins
         for row in &shift.last {
             let sign = past_mark(row);
             // The nearest part is only of interest to the engineer.
-            let name = match row.verdict {
-                StoredVerdict::Accepted => row.title.clone(),
-                StoredVerdict::Rejected => recognised_part(row)
-                    .map_or_else(|| text!("inspect-not-recognised"), str::to_owned),
-                StoredVerdict::Unknown | StoredVerdict::NoPart => described(&row.verdict),
-            };
+            let found = row.identification();
+            let mut named = found.heading(&row.title, Language::current());
+            // Beside the sign there is no room for what a mirror image is of, nor for the 17 letters of a vehicle's number.
+            let image_of = named.take_if(|_| !found.is_of_type());
+            let name = named.unwrap_or_else(|| match row.verdict {
+                StoredVerdict::Rejected => text!("inspect-not-recognised"),
+                verdict => described(&verdict),
+            });
             let at = row.at.to_zoned(jiff::tz::TimeZone::system());
             let at = at.strftime("%H:%M").to_string();
-            // Beside the name there is no room for what a mirror image is of, nor for the 17 letters of a vehicle's number.
-            let mirrored = row.mirror_of();
-            let mirrored = mirrored.map(mirror_image);
             let serial = Some(row.trace.serial.clone()).filter(|serial| !serial.is_empty());
             let is_wrong = row.is_wrongly_accepted();
             let wrong = is_wrong.then(|| text!("operator-reported-wrong"));
@@ -312,7 +310,7 @@ fn column(ui: &mut Ui, banner: &Banner, session: &Session, actions: &mut Vec<Ins
                         wrapped(ui, text, &font::body(), Theme::of(ui).text);
                     },
                 ),
-                (mirrored, |ui, text| {
+                (image_of, |ui, text| {
                     fitted_label(ui, text, font::body(), Theme::of(ui).text);
                 }),
                 (serial, |ui, text| {

@@ -135,8 +135,8 @@ impl Pictures<'_> {
         for end in figure.ray_ends.iter().step_by(step) {
             painter.line_segment([centroid, at(end)], ray);
         }
-        for (place, border) in figure.borders.iter().enumerate() {
-            let colour = if place == 0 {
+        for (index, border) in figure.borders.iter().enumerate() {
+            let colour = if index == 0 {
                 self.theme.first_series
             } else {
                 self.theme.second_series

@@ -37,13 +37,13 @@ impl Pictures<'_> {
             .iter()
             .take(num_rows)
             .enumerate()
-            .map(|(place, candidate)| {
+            .map(|(index, candidate)| {
                 let (name, font) = if is_large {
                     (&candidate.title, font::body())
                 } else {
                     (&candidate.short_title, font::scale())
                 };
-                let colour = self.text_colour(place);
+                let colour = self.text_colour(index);
                 // Leave the bars their share beside a long name.
                 elided(painter, name, font, colour, rect.width() * 0.56)
             })
@@ -64,9 +64,9 @@ impl Pictures<'_> {
         let widest = scores.iter().map(|score| score.size().x + 24.0);
         let values = widest.fold(0.0, f32::max);
         let bars = Scale::new([0.0, 1.0], [rect.left() + names, rect.right() - values]);
-        for ((place, candidate), title) in candidates.iter().enumerate().zip(titles) {
-            let middle = rect.top() + row * (place as f32 + 0.5);
-            let colour = self.text_colour(place);
+        for ((index, candidate), title) in candidates.iter().enumerate().zip(titles) {
+            let middle = rect.top() + row * (index as f32 + 0.5);
+            let colour = self.text_colour(index);
             let top = pos2(rect.left(), middle - title.size().y / 2.0);
             painter.galley(top, title, colour);
             let y = [middle - row * 0.3, middle + row * 0.3];
@@ -76,9 +76,9 @@ impl Pictures<'_> {
             painter.rect_filled(
                 bar(candidate.score.clamp(0.0, 1.0)),
                 2.0,
-                self.bar_fill(place),
+                self.bar_fill(index),
             );
-            if let Some(score) = scores.get(place) {
+            if let Some(score) = scores.get(index) {
                 let size = score.size();
                 let at = pos2(rect.right() - size.x, middle - size.y / 2.0);
                 painter.galley_with_override_text_color(at, Arc::clone(score), colour);
@@ -97,9 +97,9 @@ impl Pictures<'_> {
         let num_rows = ((rect.height() / ROW) as usize).clamp(1, candidates.len());
         let row = rect.height() / num_rows as f32;
         let across = Scale::new([0.0, 1.0], [rect.left(), rect.right()]);
-        for (place, candidate) in candidates.iter().take(num_rows).enumerate() {
-            let colour = self.text_colour(place);
-            let at = pos2(rect.left(), rect.top() + row * place as f32);
+        for (index, candidate) in candidates.iter().take(num_rows).enumerate() {
+            let colour = self.text_colour(index);
+            let at = pos2(rect.left(), rect.top() + row * index as f32);
             let name = &candidate.short_title;
             let title = elided(painter, name, font::scale(), colour, rect.width());
             let y = at.y + title.size().y + 1.0;
@@ -108,15 +108,15 @@ impl Pictures<'_> {
                 |to: f32| Rect::from_min_max(pos2(rect.left(), y), pos2(across.at(to), y + BAR));
             painter.rect_filled(bar(1.0), 2.0, theme.track);
             let score = candidate.score.clamp(0.0, 1.0);
-            painter.rect_filled(bar(score), 2.0, self.bar_fill(place));
+            painter.rect_filled(bar(score), 2.0, self.bar_fill(index));
             let threshold = across.at(self.inspected.recipe.accept.min_score as f32);
             painter.vline(threshold, y..=y + BAR, Stroke::new(1.0, theme.text));
         }
     }
 
     /// Colour of the texts at this index of the ranking.
-    fn text_colour(&self, place: usize) -> Color32 {
-        if place == self.state.candidate {
+    fn text_colour(&self, index: usize) -> Color32 {
+        if index == self.state.candidate {
             self.theme.text
         } else {
             self.theme.weak_text
@@ -124,8 +124,8 @@ impl Pictures<'_> {
     }
 
     /// Colour of the bar at this index of the ranking; the first one has that of the verdict.
-    fn bar_fill(&self, place: usize) -> Color32 {
-        if place > 0 {
+    fn bar_fill(&self, index: usize) -> Color32 {
+        if index > 0 {
             self.theme.weak_text.gamma_multiply(0.6)
         } else if self.inspected.is_open() {
             self.theme.warning

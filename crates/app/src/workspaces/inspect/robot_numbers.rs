@@ -108,9 +108,9 @@ pub(super) fn ui(
     ui.label(small(frame).color(colour));
     if pose.convention == Convention::Matrix {
         ui.columns(4, |columns| {
-            for (place, column) in columns.iter_mut().enumerate() {
+            for (index, column) in columns.iter_mut().enumerate() {
                 column.with_layout(Layout::top_down(Align::Max), |ui| {
-                    for value in pose.values.iter().skip(place).step_by(4) {
+                    for value in pose.values.iter().skip(index).step_by(4) {
                         // As many digits as fit; the clipboard has more.
                         ui.label(format!("{:.4}", value.value));
                     }

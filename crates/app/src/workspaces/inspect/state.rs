@@ -176,7 +176,7 @@ impl InspectState {
             }
             InspectAction::Colour(colouring) => self.colouring = Some(colouring),
             InspectAction::Enlarge(panel) => self.enlarged = panel,
-            InspectAction::Candidate(place) => self.candidate = place,
+            InspectAction::Candidate(index) => self.candidate = index,
             InspectAction::NextPart(by) => {
                 if let Some(shown) = &cx.session.shown {
                     let index = shown.selected() as isize + by;

@@ -38,10 +38,10 @@ pub(super) fn ui(ui: &mut Ui, pictures: &Pictures<'_>, actions: &mut Vec<Inspect
     }
     let all = ui.available_rect_before_wrap();
     let width = all.width() / StagePanel::ALL.len() as f32;
-    for (place, panel) in StagePanel::ALL.into_iter().enumerate() {
-        let left = all.left() + place as f32 * width;
+    for (index, panel) in StagePanel::ALL.into_iter().enumerate() {
+        let left = all.left() + index as f32 * width;
         let cell = Rect::from_min_size(pos2(left, all.top()), vec2(width, all.height()));
-        let response = ui.interact(cell, ui.scope_id().with(place), Sense::click());
+        let response = ui.interact(cell, ui.scope_id().with(index), Sense::click());
         let is_enlarged = pictures.state.enlarged == Some(panel);
         response.widget_info(|| {
             let label = enlarge(panel);
@@ -51,11 +51,11 @@ pub(super) fn ui(ui: &mut Ui, pictures: &Pictures<'_>, actions: &mut Vec<Inspect
         if response.hovered() || is_enlarged {
             painter.rect_filled(cell, 0.0, theme.control);
         }
-        if place > 0 {
+        if index > 0 {
             painter.vline(cell.left(), cell.y_range(), theme.edge_stroke());
         }
         let inner = cell.shrink(space::MEDIUM);
-        let title = format!("{} {}", place + 1, panel.title());
+        let title = format!("{} {}", index + 1, panel.title());
         painter.text(
             inner.min,
             egui::Align2::LEFT_TOP,
@@ -131,14 +131,14 @@ pub(super) fn enlarged_ui(ui: &mut Ui, pictures: &Pictures<'_>, actions: &mut Ve
 /// Draws the enrolled parts to compare with, best first.
 fn candidates(ui: &mut Ui, pictures: &Pictures<'_>, actions: &mut Vec<InspectAction>) {
     ui.horizontal_wrapped(|ui| {
-        for (place, candidate) in pictures.inspected.figures.candidates.iter().enumerate() {
-            let is_chosen = pictures.state.candidate == place;
+        for (index, candidate) in pictures.inspected.figures.candidates.iter().enumerate() {
+            let is_chosen = pictures.state.candidate == index;
             let button = Button::selectable(is_chosen, &candidate.title);
             if ui
                 .add(button.min_size(Vec2::splat(space::TARGET)))
                 .clicked()
             {
-                actions.push(InspectAction::Candidate(place));
+                actions.push(InspectAction::Candidate(index));
             }
         }
     });

@@ -303,8 +303,8 @@ impl SceneView {
         let mut keys = Vec::new();
         for role in &figure.roles {
             let planes = [Role::Plane0, Role::Plane1, Role::Plane2, Role::Plane3];
-            let place = planes.iter().position(|plane| plane == role);
-            let text = match (role, place) {
+            let index = planes.iter().position(|plane| plane == role);
+            let text = match (role, index) {
                 (Role::Part, _) if is_by_role => {
                     let (_, verdict, _) = headline.verdict(session.theme.colours());
                     format!("{} · {verdict}", text!("shell-part"))
@@ -312,7 +312,7 @@ impl SceneView {
                 (Role::Rest, _) if is_by_role || colouring == Colouring::Deviation => {
                     text!("inspect-other-surface")
                 }
-                (_, Some(place)) => text!("enrol-segment-background", number = place + 1),
+                (_, Some(index)) => text!("enrol-segment-background", number = index + 1),
                 _ => continue,
             };
             keys.push((drawn(*role, !is_by_role), text));
@@ -393,11 +393,11 @@ impl SceneView {
                 ViewPart::Camera => lines.extend(figure.camera.clone()),
                 ViewPart::Outline => lines.extend(figure.outline.clone()),
                 ViewPart::NozzleMiddle | ViewPart::NozzleWorst => {
-                    let (place, name) = match part {
+                    let (index, name) = match part {
                         ViewPart::NozzleMiddle => (0, text!("inspect-taught-nozzle")),
                         _ => (1, text!("inspect-worst")),
                     };
-                    if let Some(nozzle) = nozzles.and_then(|nozzles| nozzles.get(place)) {
+                    if let Some(nozzle) = nozzles.and_then(|nozzles| nozzles.get(index)) {
                         lines.push(nozzle.lines.clone());
                         labels.push(TextLabel {
                             at: nozzle.mouth,

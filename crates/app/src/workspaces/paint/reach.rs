@@ -189,14 +189,14 @@ fn in_standard_position(
     library_cache: &LibraryCache,
 ) -> Result<StandardPath, UserError> {
     let loaded = library_cache.get();
-    let (place, reference) = enrolled(&loaded, &planned.part)?;
+    let (index, reference) = enrolled(&loaded, &planned.part)?;
     let carried = carry(
         &planned.path,
         &RigidTransform::identity(),
         &reference.cloud,
         &StandOffParams::default(),
     );
-    let part = &loaded.shown.parts[place];
+    let part = &loaded.shown.parts[index];
     Ok(StandardPath {
         carried,
         part_cloud: Arc::clone(&reference.cloud),

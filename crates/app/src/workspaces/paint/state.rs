@@ -217,8 +217,8 @@ impl PaintState {
     /// The path stored with the part, if any.
     pub fn stored<'a>(&self, session: &'a Session) -> Option<&'a SprayPath> {
         let library = session.library.as_ref()?;
-        let place = library.place_of(self.part(session)?.as_str())?;
-        Some(&library.spray_paths.get(place)?.as_ref()?.path)
+        let index = library.place_of(self.part(session)?.as_str())?;
+        Some(&library.spray_paths.get(index)?.as_ref()?.path)
     }
 
     /// Carries out an action.

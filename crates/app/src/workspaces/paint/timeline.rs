@@ -61,7 +61,7 @@ pub(super) fn ui(ui: &mut Ui, paint: &PaintState, actions: &mut Vec<PaintAction>
     let scrubber = Scrubber {
         label: text!("paint-timeline"),
         keys: text!("paint-timeline-keys"),
-        place: paint.time,
+        position: paint.time,
         last: duration,
     };
     for input in scrubber.input(ui, &response) {

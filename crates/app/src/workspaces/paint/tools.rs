@@ -35,13 +35,13 @@ fn patterns(paint: &PaintState) -> Vec<Tool<PaintAction>> {
     };
     let chosen = parameter.value(&paint.design.coat) as usize;
     let options = parameters::options(parameter).into_iter().enumerate();
-    let each = options.map(|(place, option)| Tool {
+    let each = options.map(|(index, option)| Tool {
         label: format!("{}: {option}", parameters::name(parameter)),
         text: option,
         hint: Some(parameters::help(parameter)),
-        is_chosen: place == chosen,
+        is_chosen: index == chosen,
         is_enabled: true,
-        action: PaintAction::Change(KEY, ParameterChange::Set(place as f64)),
+        action: PaintAction::Change(KEY, ParameterChange::Set(index as f64)),
     });
     each.collect()
 }

@@ -343,10 +343,10 @@ fn drawn_gun(planned: &Planned, gun: &GunState, session: &Session) -> Gun {
     // Beside the part there is no stand-off to show.
     let near = nearest.filter(|(_, p)| off(p).sqrt() < 3.0 * surface.spacing);
     let mut words = Vec::new();
-    if let Some((place, p)) = near {
+    if let Some((index, p)) = near {
         words.push(session.units.length((p - gun.nozzle).dot(&jet)));
         words.push(speed_text(gun.speed));
-        let facing = -surface.normals[place].dot(&jet);
+        let facing = -surface.normals[index].dot(&jet);
         words.push(session.units.angle(facing.clamp(-1.0, 1.0).acos()));
     } else {
         words.push(speed_text(gun.speed));

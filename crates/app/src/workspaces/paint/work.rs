@@ -87,8 +87,8 @@ pub(super) fn enrolled<'a>(
     loaded: &'a LoadedLibrary,
     part: &PartName,
 ) -> Result<(usize, &'a Reference), UserError> {
-    let place = loaded.shown.place_of(part.as_str());
-    let found = place.and_then(|place| Some((place, loaded.library.references.get(place)?)));
+    let index = loaded.shown.place_of(part.as_str());
+    let found = index.and_then(|index| Some((index, loaded.library.references.get(index)?)));
     found.ok_or_else(|| UserError {
         what: text!("paint-no-such-part", part = part.as_str()),
         advice: text!("shell-choose-another-part"),
@@ -103,9 +103,9 @@ pub(super) fn planned(
     context: &TaskContext<PaintResult>,
 ) -> Result<PaintResult, TaskError> {
     let loaded = library_cache.get();
-    let (place, reference) = enrolled(&loaded, &request.part)?;
+    let (index, reference) = enrolled(&loaded, &request.part)?;
     let (coat, regions) = (&request.coat, &request.regions);
-    let PartMeta { coverage, side, .. } = loaded.shown.parts[place];
+    let PartMeta { coverage, side, .. } = loaded.shown.parts[index];
     let surface = PaintSurface::of(reference, coverage, side).map_err(|error| match error {
         PaintError::SideUnclear { .. } => UserError {
             what: sentence(&library_text("enrol-side-unclear")),
@@ -114,7 +114,7 @@ pub(super) fn planned(
         error => UserError::of(&error),
     })?;
     context.check()?;
-    let stored = loaded.shown.spray_paths.get(place).and_then(Option::as_ref);
+    let stored = loaded.shown.spray_paths.get(index).and_then(Option::as_ref);
     let failed = |error| UserError::of(&error);
     let (coat, path, film) = match (request.shown, stored) {
         (ShownPath::Stored, Some(StoredPath { path, .. })) => {

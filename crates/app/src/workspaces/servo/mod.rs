@@ -112,8 +112,8 @@ impl Workspace for ServoWorkspace {
         bindings.filter(|_| is_running).collect()
     }
 
-    fn press(&mut self, place: usize, cx: &mut ShellContext<'_>) {
-        if let Some(shortcut) = SHORTCUTS.get(place) {
+    fn press(&mut self, index: usize, cx: &mut ShellContext<'_>) {
+        if let Some(shortcut) = SHORTCUTS.get(index) {
             self.state.apply((shortcut.action)(), cx);
         }
     }

@@ -91,18 +91,18 @@ fn target(ui: &mut Ui, setup: &mut ServoSettings, actions: &mut Vec<ServoAction>
         actions.push(ServoAction::Ask(ServoFile::SeenAs));
     }
     let mut removed = None;
-    for (place, path) in setup.seen_as.iter().enumerate() {
+    for (index, path) in setup.seen_as.iter().enumerate() {
         ui.horizontal(|ui| {
             let remove = text!("servoing-remove-frame");
             if text_button(ui, "✕").on_hover_text(remove).clicked() {
-                removed = Some(place);
+                removed = Some(index);
             }
             ui.label(files::file_name(path))
                 .on_hover_text(path.display().to_string());
         });
     }
-    if let Some(place) = removed {
-        setup.seen_as.remove(place);
+    if let Some(index) = removed {
+        setup.seen_as.remove(index);
     }
 }
 

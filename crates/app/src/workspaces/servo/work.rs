@@ -299,8 +299,8 @@ fn real(
     let feed = cameras.feed(&cell.source);
     let feed = feed.map_err(|error| UserError::of(&error))?;
     let shown = &loaded.shown;
-    let place = shown.place_of(&request.part);
-    let path = place.and_then(|place| shown.spray_paths.get(place)?.as_ref());
+    let index = shown.place_of(&request.part);
+    let path = index.and_then(|index| shown.spray_paths.get(index)?.as_ref());
     let robot = RealRobot {
         address: cell.address,
         source: &cell.source,

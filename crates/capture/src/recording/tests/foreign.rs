@@ -59,7 +59,10 @@ fn a_sequence_of_depth_images_is_read_with_its_times_and_its_camera() {
     let Image::Depth(frame) = &found[2].image else {
         panic!("a depth image");
     };
-    assert_eq!((frame.depth[0], DepthCamera::of(frame)), (5002, camera));
+    assert_eq!(
+        (frame.depth[0], DepthCamera::from_frame(frame)),
+        (5002, camera)
+    );
     // A camera given by name takes precedence over the one in the folder.
     let mut given = camera;
     given.intrinsics.fx = 580.0;
@@ -67,7 +70,9 @@ fn a_sequence_of_depth_images_is_read_with_its_times_and_its_camera() {
     write_camera(&file, &given).unwrap();
     let kind = format!("recording,pace=step,camera={}", file.display());
     let (found, _) = all_of(open(&spec(&kind, folder.path())).unwrap().as_mut());
-    assert!(matches!(&found[0].image, Image::Depth(frame) if DepthCamera::of(frame) == given));
+    assert!(
+        matches!(&found[0].image, Image::Depth(frame) if DepthCamera::from_frame(frame) == given)
+    );
     fs::write(folder.path().join("depth.txt"), "1305031102.160401\n").unwrap();
     let error = Replay::open(&recording_of(folder.path()))
         .err()

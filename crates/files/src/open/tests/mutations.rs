@@ -66,7 +66,7 @@ fn seeds() -> Vec<Seed> {
             seeds.push((name, bytes));
         }
     }
-    let camera = crate::DepthCamera::of(&depth_frame());
+    let camera = crate::DepthCamera::from_frame(&depth_frame());
     seeds.push(("camera", serde_json::to_vec(&camera).unwrap()));
     seeds
 }
@@ -178,8 +178,8 @@ fn files_changed_at_random_open_or_fail_by_name() {
     let (mut num_opened, mut num_clouds) = (vec![0; seeds.len()], 0);
     for number in 0..NUM_FILES {
         let mut random = Pcg64::seed_from_u64(number as u64);
-        let place = number % seeds.len();
-        let (name, seed) = &seeds[place];
+        let index = number % seeds.len();
+        let (name, seed) = &seeds[index];
         let mut bytes = seed.clone();
         let other = &seeds[random.random_range(0..seeds.len())].1;
         for _ in 0..random.random_range(1..=4) {
@@ -194,7 +194,7 @@ fn files_changed_at_random_open_or_fail_by_name() {
         if let Ok(text) = str::from_utf8(&bytes) {
             let _ = table_rows(text, path);
         }
-        num_opened[place] += usize::from(opened.is_ok() || images.is_ok());
+        num_opened[index] += usize::from(opened.is_ok() || images.is_ok());
         match opened {
             Ok(FileContent::Cloud(cloud)) => {
                 assert!(cloud.points.len() <= MAX_POINTS);

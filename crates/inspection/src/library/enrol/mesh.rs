@@ -6,7 +6,7 @@ use super::EnrolFinding;
 use geometry::{
     cloud::PointCloud,
     mesh::TriangleMesh,
-    shown_sides::{MIN_HIDING, shown_sides},
+    shown_sides::{MIN_HIDING_DEPTH, shown_sides},
     units::Metres,
 };
 
@@ -69,7 +69,7 @@ impl Sampled {
             points, normals, ..
         } = mesh.sample_evenly(num_points, SEED)?;
         let normals = normals?;
-        let shown = shown_sides(mesh, &points, &normals, MIN_HIDING);
+        let shown = shown_sides(mesh, &points, &normals, MIN_HIDING_DEPTH);
         Some(Self {
             points,
             normals,

@@ -109,5 +109,5 @@ fn middle_of(part: &SegmentedPart) -> Point3<f32> {
 /// The inspection of a spot where a frame shows no part.
 pub fn nothing_there() -> Inspection {
     let segmentation = segment(&SceneCloud::default(), &SegmentParams::default());
-    Inspection::of(segmentation, Unrecognisable::EmptyLibrary)
+    Inspection::unrecognised(segmentation, Unrecognisable::EmptyLibrary)
 }

@@ -131,7 +131,7 @@ mod tests {
         pipeline::{Recipe, Unwatched, run},
     };
     use simulate::{PartKind, SensorNoise, fixtures::HangingPart};
-    use stages::{reference::Reference, scene::scene_from_frame};
+    use stages::scene::scene_from_frame;
 
     /// The inspection of a frame with the part moved by `x` metres, with the noise of `seed`, and the part's middle.
     fn seen(
@@ -149,8 +149,7 @@ mod tests {
         let inspection = run(&scene, library, &Recipe::default(), &Unwatched);
         let inspection = inspection.expect("not cancelled");
         assert!(inspection.verdict.is_accepted(), "{:?}", inspection.verdict);
-        let middle = inspection.best_reference(library);
-        let middle = middle.and_then(Reference::middle);
+        let middle = inspection.middle(library);
         (inspection, middle)
     }
 

@@ -51,7 +51,7 @@ pub const PARAMETERS: &[Parameter] = &[
         kind: Kind::Choice(Choice {
             options: &["64", "128", "256", "512", "1024", "2048"],
             get: |r| NUM_RAYS.iter().position(|n| *n >= r.signature.num_rays).unwrap_or(NUM_RAYS.len() - 1),
-            set: |r, place| r.signature.num_rays = NUM_RAYS[place],
+            set: |r, index| r.signature.num_rays = NUM_RAYS[index],
         }),
     },
     number!(signature.smoothing, "Smoothing", Group::Contour, Fold, Millimetres, [0.0, 100.0], 1,
@@ -65,7 +65,7 @@ pub const PARAMETERS: &[Parameter] = &[
         kind: Kind::Choice(Choice {
             options: &["Default", "Paper"],
             get: |r| match r.rank.matcher { Matcher::Default => 0, Matcher::Paper => 1 },
-            set: |r, place| r.rank.matcher = if place == 0 { Matcher::Default } else { Matcher::Paper },
+            set: |r, index| r.rank.matcher = if index == 0 { Matcher::Default } else { Matcher::Paper },
         }),
     },
     number!(rank.num_overlaid, "Placements laid over", Group::Match, Fold, None, [1.0, 20.0], 0,
@@ -87,7 +87,7 @@ pub const PARAMETERS: &[Parameter] = &[
         kind: Kind::Choice(Choice {
             options: &["Global", "ICP", "ICP-GA", "None"],
             get: |r| POSES.iter().position(|pose| *pose == r.pose).unwrap_or_default(),
-            set: |r, place| r.pose = POSES[place],
+            set: |r, index| r.pose = POSES[index],
         }),
     },
     number!(confirm.num_references, "Parts looked for", Group::Pose, Fold, None, [1.0, 20.0], 0,

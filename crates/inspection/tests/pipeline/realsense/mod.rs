@@ -58,8 +58,8 @@ fn check(frame: &DepthFrame, width: usize, height: usize) -> u16 {
     let camera = frame.intrinsics;
     assert_eq!((camera.width, camera.height), (width, height));
     assert_eq!(frame.depth.len(), width * height);
-    for (place, &depth) in frame.depth.iter().enumerate() {
-        let (column, row) = (place % width, place / width);
+    for (index, &depth) in frame.depth.iter().enumerate() {
+        let (column, row) = (index % width, index / width);
         let expected = match (column, row) {
             (5, 7) | (11, 3) => continue,
             (9, 3) => 0,

@@ -118,7 +118,7 @@ fn state(library: &LibraryFolder) -> String {
     let load = library.load(&ReferenceParams::default()).expect("listed");
     assert!(load.problems.is_empty(), "{:?}", load.problems);
     let titles: Vec<_> = load.parts.iter().map(|part| part.title.as_str()).collect();
-    let record = TakenBundle::of(library).expect("read");
+    let record = TakenBundle::read(library).expect("read");
     let version = record.map(|record| {
         let differences = record.differences(library).expect("compared");
         assert!(differences.is_empty(), "{differences:?}");
@@ -149,7 +149,7 @@ fn cells_get_the_published_numbers_and_keep_those_that_they_have() {
     let plant = Plant::with_two_versions();
     let of = |library: &LibraryFolder, name: &str| {
         let numbers = library.numbers().expect("read");
-        numbers.of(&part(name))
+        numbers.number_of(&part(name))
     };
     plant.take_newest().expect("taken");
     let names = ["fender", "grille", "radiator_support"];
@@ -158,7 +158,7 @@ fn cells_get_the_published_numbers_and_keep_those_that_they_have() {
         names.map(|name| of(&plant.cell(), name)),
         [Some(1), Some(2), Some(3)]
     );
-    let differences = TakenBundle::of(&plant.cell())
+    let differences = TakenBundle::read(&plant.cell())
         .expect("read")
         .expect("taken");
     let differences = differences.differences(&plant.cell()).expect("compared");
@@ -409,7 +409,7 @@ fn parts_that_are_in_no_version_are_kept_unless_they_may_go_to_the_trash() {
         LocalPart::Changed("fender".into()),
         LocalPart::Enrolled("front_door".into()),
     ];
-    let record = TakenBundle::of(&cell).expect("read").expect("taken");
+    let record = TakenBundle::read(&cell).expect("read").expect("taken");
     assert_eq!(record.differences(&cell).expect("compared"), local);
     let before = contents(&cell);
     let refused = plant.take_newest().expect_err("local parts");
@@ -435,7 +435,7 @@ fn parts_that_are_in_no_version_are_kept_unless_they_may_go_to_the_trash() {
     cell.restore(&door.expect("kept").kept).expect("restored");
     let text = fs::read_to_string(plant.path("cell/front_door/part.toml"));
     assert!(text.expect("there").contains("My door"));
-    let record = TakenBundle::of(&cell).expect("read").expect("taken");
+    let record = TakenBundle::read(&cell).expect("read").expect("taken");
     assert_eq!(
         record.differences(&cell).expect("compared"),
         [LocalPart::Enrolled("front_door".into())]
@@ -488,7 +488,7 @@ fn a_spray_path_of_this_cell_stays_with_its_part_in_every_version_that_has_none(
         );
         let words = cell.words(&part("grille")).expect("there");
         assert_eq!(words.title, "Grille of 2027");
-        let record = TakenBundle::of(&cell).expect("read").expect("taken");
+        let record = TakenBundle::read(&cell).expect("read").expect("taken");
         assert_eq!(
             record.differences(&cell).expect("compared"),
             [LocalPart::SprayPath("grille".into())]
@@ -496,7 +496,7 @@ fn a_spray_path_of_this_cell_stays_with_its_part_in_every_version_that_has_none(
     }
     // Without the path the part is again as it was published.
     cell.set_spray_path(&part("grille"), None).expect("removed");
-    let record = TakenBundle::of(&cell).expect("read").expect("taken");
+    let record = TakenBundle::read(&cell).expect("read").expect("taken");
     assert!(record.differences(&cell).expect("compared").is_empty());
 }
 
@@ -574,7 +574,7 @@ fn a_spray_path_that_came_with_a_version_goes_with_it() {
 fn all_versions_of_a_store_are_listed_whoever_signed_them() {
     let plant = Plant::with_two_versions();
     plant.take(Some(1), LocalParts::Keep).expect("taken");
-    let record = TakenBundle::of(&plant.cell())
+    let record = TakenBundle::read(&plant.cell())
         .expect("read")
         .expect("taken");
     let store = plant.store();

@@ -67,7 +67,7 @@ fn a_kept_scene_opens_again_bit_for_bit_with_the_same_verdict() {
     let mut scene = facing_part(PartKind::FrontDoor, Side::Left, 4);
     scene.edge = PictureEdge::Points;
     let empty = scene_of(&CellSetup::new(SimulatedObject::Nothing, 4));
-    let cell = EmptyCell::of(&empty).expect("a picture");
+    let cell = EmptyCell::from_scene(&empty).expect("a picture");
     scene.empty_cell = Some(Arc::new(cell));
     let library = shipped_library();
     let found_in = |scene: &SceneCloud| {
@@ -160,8 +160,8 @@ fn writing_that_stops_half_way_leaves_no_case_and_is_cleared_up() {
     cases.keep(&crumb(), about("whole")).expect("kept");
     // Wherever the writer stops before the rename, all files are in the hidden folder.
     let whole = folder.path().join("whole");
-    for (place, files) in [&[][..], &[CRUMB], &[CRUMB, META]].into_iter().enumerate() {
-        let half = folder.path().join(format!("{NEW_PREFIX}{place}"));
+    for (index, files) in [&[][..], &[CRUMB], &[CRUMB, META]].into_iter().enumerate() {
+        let half = folder.path().join(format!("{NEW_PREFIX}{index}"));
         fs::create_dir(&half).expect("made");
         for file in files {
             fs::copy(whole.join(file), half.join(file)).expect("copied");
@@ -277,7 +277,7 @@ fn a_case_of_the_first_version_is_read_with_its_empty_cell() {
     let case = folder.path().join("old");
     fs::create_dir(&case).expect("made");
     let scene = facing_part(PartKind::FrontDoor, Side::Left, 4);
-    let cell = EmptyCell::of(&scene).expect("a picture");
+    let cell = EmptyCell::from_scene(&scene).expect("a picture");
     let packed = |cloud: &geometry::cloud::PointCloud| {
         let mut bytes = Vec::new();
         files::write_pcd(&mut bytes, cloud).expect("written");
@@ -319,7 +319,7 @@ fn a_packed_case_is_the_same_without_its_folder_and_its_damage_is_reported_the_s
     let folder = tempfile::tempdir().expect("a folder");
     let cases = CaseFolder::at(folder.path());
     let mut scene = facing_part(PartKind::FrontDoor, Side::Left, 4);
-    let cell = EmptyCell::of(&scene).expect("a picture");
+    let cell = EmptyCell::from_scene(&scene).expect("a picture");
     scene.empty_cell = Some(Arc::new(cell));
     let kept = cases.keep(&scene, about("door")).expect("kept");
     let packed = cases.pack(&kept).expect("packed");

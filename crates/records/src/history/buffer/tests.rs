@@ -5,7 +5,10 @@ use std::fs;
 use super::*;
 use crate::{
     fixtures::{history_entry, open_history},
-    history::{Filter, StoredVerdict, Traceability, schema::APPLICATION, waiting::MAX_WAITING},
+    history::{
+        Filter, FrameLoss, KeepFrames, StoredVerdict, Traceability, schema::APPLICATION,
+        waiting::MAX_WAITING,
+    },
 };
 use capture::fixtures::moment;
 use stages::fixtures::small_scene;
@@ -66,6 +69,11 @@ fn without_a_folder_everything_is_kept_in_memory_and_nothing_is_wrong() {
     };
     assert_eq!(scene(-6), Some(small_scene(6)));
     assert_eq!(scene(-1), None);
+    let loss = |number| {
+        let record = keeper.row(number).expect("asked").expect("there");
+        record.detail.frame_loss
+    };
+    assert_eq!([loss(-6), loss(-1)], [None, Some(FrameLoss::NotWritable)]);
     assert!(
         !keeper
             .row(-6)
@@ -117,6 +125,68 @@ fn a_folder_that_cannot_be_made_is_said_once_and_what_waited_is_written_later() 
     let history = open_history(&place);
     let fourth = history.known(4).expect("written");
     assert!(history.scene(&fourth).expect("read").is_some());
+}
+
+#[test]
+fn a_frame_that_cannot_be_written_costs_no_row_and_is_told_once_until_one_can() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let keeper = HistoryBuffer::new(Some(folder.path().to_owned()));
+    let now = Instant::now();
+    let frames = folder.path().join("history-frames");
+    let add = |seconds: i64| keeper.add(seconds as u64, not_accepted(seconds), now);
+    add(1);
+    fs::remove_dir_all(&frames).expect("removed");
+    fs::write(&frames, "no folder").expect("written");
+    add(2);
+    add(3);
+    let told = || {
+        let mut told = Vec::new();
+        for news in keeper.take_news() {
+            match news {
+                HistoryEvent::FramesNotKept { what, advice } => told.push((what, advice)),
+                HistoryEvent::Added { .. } => {}
+                other => panic!("{other:?}"),
+            }
+        }
+        told
+    };
+    let first = told();
+    let [(what, advice)] = first.as_slice() else {
+        panic!("{first:?}");
+    };
+    assert!(
+        what.contains("frames are no longer kept") && what.contains("history-frames"),
+        "{what}"
+    );
+    assert!(advice.contains("without frames"), "{advice}");
+    // The rule keeps none: nothing is lost.
+    let none = Retention {
+        keep: KeepFrames::None,
+        ..Retention::default()
+    };
+    keeper.set_retention(none);
+    add(4);
+    keeper.set_retention(Retention::default());
+    keeper.take_news();
+    fs::remove_file(&frames).expect("removed");
+    add(5);
+    fs::remove_dir_all(&frames).expect("removed");
+    fs::write(&frames, "no folder").expect("written");
+    add(6);
+    assert_eq!(told().len(), 1);
+    assert_eq!(numbers(&keeper), [6, 5, 4, 3, 2, 1]);
+    assert_eq!((keeper.num_waiting(), keeper.next_try()), (0, None));
+    let loss = |number| {
+        let record = keeper.row(number).expect("asked").expect("written");
+        let detail = record.detail;
+        assert!(detail.frame.is_none() || detail.frame_loss.is_none());
+        detail.frame_loss
+    };
+    let lost = Some(FrameLoss::NotWritable);
+    assert_eq!(
+        [1, 2, 3, 4, 5, 6].map(loss),
+        [None, lost, lost, None, None, lost]
+    );
 }
 
 #[test]

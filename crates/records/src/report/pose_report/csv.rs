@@ -15,10 +15,11 @@ use geometry::error::Advice;
 use robot::Convention;
 
 /// Why a row could not be appended.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Advice)]
 pub enum CsvError {
     /// The file has other columns, or is not a table of pose reports.
     #[error("{}: its columns are not those of a pose report in {}", path.display(), convention.title())]
+    #[advice = "Append to another file: each convention and version of the report has its own"]
     OtherColumns {
         /// The file.
         path: PathBuf,
@@ -27,24 +28,13 @@ pub enum CsvError {
     },
     /// The file cannot be written.
     #[error("{}: cannot append a row: {}", path.display(), words_of(source))]
+    #[advice(advice_on(source))]
     Io {
         /// The file.
         path: PathBuf,
         /// The underlying error.
         source: io::Error,
     },
-}
-
-impl Advice for CsvError {
-    fn advice(&self) -> String {
-        match self {
-            Self::OtherColumns { .. } => {
-                "Append to another file: each convention and version of the report has its own"
-                    .into()
-            }
-            Self::Io { source, .. } => advice_on(source).into(),
-        }
-    }
 }
 
 /// Appends the report to the file. A missing or empty file is created with a line of column names. If the last row was

@@ -17,7 +17,7 @@ use serde::Serialize;
 
 use super::line::{TimingsLine, status_of};
 use crate::history::Traceability;
-use inspection::pipeline::{Inspection, NamedRecipe, Recipe, RecipeBlock};
+use inspection::pipeline::{Identification, Inspection, NamedRecipe, Recipe, RecipeBlock};
 use robot::{Convention, RobotFrame};
 use stages::{
     pose::PoseEstimate,
@@ -104,6 +104,9 @@ pub struct PoseReport {
 /// What was decided.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct VerdictBlock {
+    /// What hangs there, which the page names; other programs read it from the fields below.
+    #[serde(skip)]
+    pub identification: Identification,
     /// `ok`, `unknown` or `no_part`.
     pub status: &'static str,
     /// The part's name, accepted or not; null if it is unknown or there is none.
@@ -266,6 +269,7 @@ impl VerdictBlock {
         let is_unknown = verdict.is_unknown();
         let (reason, advice) = verdict.complaint().map(<(_, _)>::from).unzip();
         Self {
+            identification: verdict.identification(&recipe.accept),
             status: status_of(verdict),
             part: guess.clone().filter(|_| !is_unknown),
             nearest: guess.filter(|_| is_unknown),

@@ -8,12 +8,13 @@ use jiff::tz::TimeZone;
 use pdf_writer::Date;
 
 use super::{
-    PoseReport, SeenBy, VerdictBlock,
+    PoseReport, SeenBy,
     file::{About, Weight},
     sheet::{Area, Faces, Ink, Sheet, Style},
 };
 use crate::report::{Picture, lettering::Anchor};
-use inspection::pipeline::{AcceptParams, is_like};
+use inspection::pipeline::Identification;
+use texts::Language;
 
 /// A4, points.
 const PAGE: [f32; 2] = [595.28, 841.89];
@@ -151,26 +152,24 @@ fn head(sheet: &mut Sheet<'_>, report: &PoseReport) -> f32 {
     90.0
 }
 
-/// Returns the headline of the report.
-fn headline(report: &PoseReport, pictures: &PdfPictures<'_>) -> String {
+/// Returns the title or the name of the part that the verdict is about, if any.
+fn part_of<'a>(report: &'a PoseReport, pictures: &PdfPictures<'a>) -> Option<&'a str> {
     let verdict = &report.verdict;
-    match (&verdict.part, verdict.status) {
-        (Some(part), _) if verdict.accepted || is_recognised(verdict) => {
-            pictures.title.unwrap_or(part).to_owned()
-        }
-        (_, "no_part") => "No part".into(),
-        (_, "unknown") => "Unknown part".into(),
-        // An uncertain name must not be the headline.
-        _ => "Part not accepted".into(),
-    }
+    let part = verdict.part.as_deref().or(verdict.nearest.as_deref());
+    pictures.title.or(part)
 }
 
-/// True if score and margin identify the part, even if it was not accepted for another reason. The report does not contain
-/// the recipe's minimum margin, so that of the built-in recipe is used.
-fn is_recognised(verdict: &VerdictBlock) -> bool {
-    let is_clear = |margin: f64| margin >= AcceptParams::default().min_margin;
-    let is_likely = |score: f64| score >= verdict.threshold;
-    verdict.score.is_some_and(is_likely) && verdict.margin.is_some_and(is_clear)
+/// Returns the headline of the report.
+fn headline(report: &PoseReport, pictures: &PdfPictures<'_>) -> String {
+    let found = report.verdict.identification;
+    let part = part_of(report, pictures).unwrap_or_default();
+    let heading = found.heading(part, Language::English);
+    heading.unwrap_or_else(|| match found {
+        Identification::NoPart => "No part".into(),
+        Identification::Unknown { .. } => "Unknown part".into(),
+        // An uncertain name must not be the headline.
+        _ => "Part not accepted".into(),
+    })
 }
 
 /// Draws the verdict. Returns where the next block begins.
@@ -235,12 +234,8 @@ fn verdict(
     let text = |sheet: &mut Sheet<'_>, text: &str, style, y| {
         sheet.paragraph(text, [MARGIN + INDENT, y], WIDTH - INDENT, style, 3)
     };
-    let nearest = (verdict.nearest.as_ref())
-        .filter(|_| verdict.score.is_none_or(is_like))
-        .or(verdict.part.as_ref());
-    // The headline names a part that was recognised.
-    if let Some(nearest) = nearest.filter(|_| !verdict.accepted && !is_recognised(verdict)) {
-        let nearest = pictures.title.unwrap_or(nearest);
+    let nearest = part_of(report, pictures);
+    if let Some(nearest) = nearest.filter(|_| verdict.identification.names_nearest()) {
         y = text(sheet, &format!("Nearest enrolled part: {nearest}"), BODY, y);
     }
     if let Some(actual) = &verdict.reported_as {

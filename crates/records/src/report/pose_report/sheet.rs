@@ -50,13 +50,13 @@ impl Faces {
         Self(Weight::ALL.map(|weight| Lettering::of(weight.font())))
     }
 
-    fn of(&self, weight: Weight) -> &Lettering {
+    fn lettering(&self, weight: Weight) -> &Lettering {
         &self.0[weight as usize]
     }
 
     /// Returns the width of a text.
     pub(super) fn width(&self, text: &str, style: Style) -> f32 {
-        self.of(style.weight).width(text, style.size)
+        self.lettering(style.weight).width(text, style.size)
     }
 
     /// Truncates a text in its middle to fit the width: both ends of a path matter more than its middle.
@@ -160,7 +160,7 @@ impl<'a> Sheet<'a> {
                 height: 0.9 * style.size,
             },
         ));
-        let glyphs = self.faces.of(style.weight).glyphs(text);
+        let glyphs = self.faces.lettering(style.weight).glyphs(text);
         let used = &mut self.fonts[style.weight as usize];
         let (mut codes, mut is_plain) = (Vec::new(), true);
         for (letter, (glyph, width)) in text.chars().zip(glyphs) {

@@ -12,7 +12,7 @@ use inspection::{
     pipeline::{Unwatched, Verdict, run},
 };
 use simulate::{CellSetup, PartKind, Side, SimulatedObject};
-use stages::{fixtures::scene_of, reference::Reference, scene::SceneCloud, stand_off::stand_off};
+use stages::{fixtures::scene_of, scene::SceneCloud, stand_off::stand_off};
 
 /// An inspected scene with all inputs of a report.
 pub(super) struct Inspected {
@@ -69,7 +69,6 @@ impl Inspected {
         doubts: &[DoubtBlock],
         convention: Convention,
     ) -> PoseReport {
-        let best = self.inspection.best_reference(&self.library);
         PoseReport::of(&ReportSubject {
             inspected_at: "2026-03-04T05:06:07.25Z".parse().expect("a time"),
             scene: "shift 2/door, left.pcd",
@@ -77,7 +76,7 @@ impl Inspected {
             seen_by: SeenBy::Simulation,
             trace: &Traceability::default(),
             inspection,
-            middle: best.and_then(Reference::middle),
+            middle: self.inspection.middle(&self.library),
             stand_off: self.stand_off.as_ref(),
             recipe: &self.recipe,
             library_identity: "01234567",

@@ -42,13 +42,25 @@ pub struct CoatFolder {
 }
 
 /// Why a coat cannot be read or written.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Advice)]
 pub enum CoatError {
     /// The file cannot be read or written.
     #[error(transparent)]
+    #[advice(match _0 {
+        RecipeError::BadParameter { .. } => {
+            "Correct the file (none of it was used); docs/guide/paint.md lists names, units and ranges".into()
+        }
+        other => other.advice(),
+    })]
     File(#[from] RecipeError),
     /// No coat has this name.
     #[error("there is no coat named {name}")]
+    #[advice(match nearest_name(available.iter().map(String::as_str), name) {
+        Some(nearest) => {
+            format!("The nearest name is {nearest}; partsight path plan --help names the coats of the program")
+        }
+        None => format!("Give one of {}, or a file", available.join(", ")),
+    })]
     NotFound {
         /// The name given.
         name: String,
@@ -57,30 +69,11 @@ pub enum CoatError {
     },
     /// The name belongs to a built-in coat, or to one that must not be replaced.
     #[error("there is a coat named {name} already")]
+    #[advice = "Choose another name"]
     Exists {
         /// The name.
         name: String,
     },
-}
-
-impl Advice for CoatError {
-    fn advice(&self) -> String {
-        match self {
-            Self::File(RecipeError::BadParameter { .. }) => {
-                "Correct the file (none of it was used); docs/guide/paint.md lists names, units and ranges".into()
-            }
-            Self::File(error) => error.advice(),
-            Self::NotFound { name, available } => {
-                match nearest_name(available.iter().map(String::as_str), name) {
-                    Some(nearest) => format!(
-                        "The nearest name is {nearest}; partsight path plan --help names the coats of the program"
-                    ),
-                    None => format!("Give one of {}, or a file", available.join(", ")),
-                }
-            }
-            Self::Exists { .. } => "Choose another name".into(),
-        }
-    }
 }
 
 impl CoatFolder {

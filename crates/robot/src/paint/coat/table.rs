@@ -49,7 +49,7 @@ macro_rules! choice {
             kind: Kind::Choice(Choice {
                 options: &[$($option),+],
                 get: |c| [$($value),+].iter().position(|value| *value == c.$($field).+).unwrap_or(0),
-                set: |c, place| c.$($field).+ = [$($value),+][place],
+                set: |c, index| c.$($field).+ = [$($value),+][index],
             }),
         }
     };

@@ -505,7 +505,7 @@ impl AnsweringSession<'_> {
             let shown = &loaded.shown;
             let parts = shown.parts.iter().zip(&shown.spray_paths);
             let parts = parts.map(|(part, stored)| NumberedPart {
-                number: numbers.of(&part.name).unwrap_or(0),
+                number: numbers.number_of(&part.name).unwrap_or(0),
                 path: stored.as_ref().map(|stored| stored.path.clone()),
                 off: stored.as_ref().and_then(|stored| stored.off),
                 is_simulated: part.simulated,

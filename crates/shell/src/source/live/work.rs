@@ -31,7 +31,7 @@ use inspection::{
     },
 };
 use records::history::{NewEntry, Traceability};
-use stages::{reference::Reference, scene::EmptyCell};
+use stages::scene::EmptyCell;
 use station::{SeenFrame, SeenPart};
 use ui::{
     task::{Task, TaskContext, TaskError, TaskRunner},
@@ -443,10 +443,7 @@ impl<'a> LiveSession<'a> {
         library: &Library,
     ) -> Vec<SeenPart> {
         let recipe = &self.request.recipe;
-        let middle = |part: &Inspection| {
-            let best = part.best_reference(library);
-            best.and_then(Reference::middle)
-        };
+        let middle = |part: &Inspection| part.middle(library);
         let Some(watch) = &mut self.watch else {
             // Captures are independent, and what each shows are hung parts of their own.
             let alone = |inspection| SeenPart {

@@ -164,12 +164,12 @@ struct Robots<'a> {
 }
 
 impl Robots<'_> {
-    fn connect(&self, place: usize) -> Robot {
-        let stream = TcpStream::connect(self.addresses[place]).expect("connected");
+    fn connect(&self, index: usize) -> Robot {
+        let stream = TcpStream::connect(self.addresses[index]).expect("connected");
         stream.set_read_timeout(Some(PATIENCE)).expect("set");
         Robot {
-            protocol: ALL[place].0,
-            convention: ALL[place].1,
+            protocol: ALL[index].0,
+            convention: ALL[index].1,
             stream: BufReader::new(stream),
         }
     }
@@ -228,8 +228,8 @@ fn served(
         rotation: Radians::from_degrees(10.0),
     };
     let number_of = |name: &str| {
-        let place = library.references.iter().position(|one| one.name == name);
-        place.expect("enrolled") as u32 + 1
+        let index = library.references.iter().position(|one| one.name == name);
+        index.expect("enrolled") as u32 + 1
     };
     let has_path = setup.target == SimulatedTarget::PathStart;
     let parts = (1..)
@@ -513,9 +513,9 @@ fn a_robot_of_each_protocol_is_brought_to_its_target_move_by_move() {
         |_| (),
         settings,
         |robots| {
-            for place in 0..ALL.len() {
+            for index in 0..ALL.len() {
                 lock(robots.world).flange = robots.start;
-                let mut robot = robots.connect(place);
+                let mut robot = robots.connect(index);
                 let mut lefts = Vec::new();
                 let done = loop {
                     let reply = robots.ask(&mut robot, robots.fender, false);

@@ -53,8 +53,8 @@ impl Bench {
         self.align.update(&mut self.shell.context());
     }
 
-    fn place(&self) -> usize {
-        self.align.place.round() as usize
+    fn iteration(&self) -> usize {
+        self.align.iteration.round() as usize
     }
 
     fn missing(&self) -> Option<String> {
@@ -89,18 +89,18 @@ fn every_method_runs_on_the_pair_and_a_scrubbed_pose_gives_the_e_of_its_iteratio
     let shown = bench.align.shown.as_ref().expect("a result");
     let methods: Vec<_> = shown.runs.iter().map(|run| run.method).collect();
     assert_eq!(methods, PoseMethod::ALL);
-    assert_eq!(bench.place(), shown.last_place());
+    assert_eq!(bench.iteration(), shown.last_iteration());
     for (run, track) in shown.tracks() {
         assert_eq!(track.poses.len(), track.e_m2.len());
         // Not exactly equal: each is over another part of the sample.
-        for place in [0, track.poses.len() / 2, track.poses.len() - 1] {
+        for index in [0, track.poses.len() / 2, track.poses.len() - 1] {
             let (slow, quick) = (
-                slow_e(&shown.pair, &track.pose_at(place)),
-                track.e_m2[place],
+                slow_e(&shown.pair, &track.pose_at(index)),
+                track.e_m2[index],
             );
             assert!(
                 (slow - quick).abs() < 0.25 * quick + 1e-10,
-                "{:?} at {place}: {slow} {quick}",
+                "{:?} at {index}: {slow} {quick}",
                 run.method
             );
         }
@@ -248,30 +248,30 @@ fn random_starts_are_counted_and_come_again() {
 fn the_scrubber_stays_within_the_way_and_plays_to_its_end() {
     let mut bench = Bench::with_library();
     bench.run(AlignAction::Run);
-    let last = bench.align.last_place();
+    let last = bench.align.last_iteration();
     assert!(last > 3);
     bench.act(AlignAction::Step(1.0));
-    assert_eq!(bench.place(), last);
+    assert_eq!(bench.iteration(), last);
     bench.act(AlignAction::Step(-2.0));
-    assert_eq!(bench.place(), last - 2);
+    assert_eq!(bench.iteration(), last - 2);
     bench.act(AlignAction::Scrub(-5.0));
-    assert_eq!(bench.place(), 0);
+    assert_eq!(bench.iteration(), 0);
     bench.act(AlignAction::Scrub(last as f32));
     // Play at the end starts again at the beginning.
     bench.act(AlignAction::TogglePlay);
     assert_eq!(
-        (bench.place(), bench.align.playback),
+        (bench.iteration(), bench.align.playback),
         (0, Playback::Playing)
     );
     bench.act(AlignAction::Advance(0.1));
-    assert!(bench.align.place > 0.0 && bench.align.playback == Playback::Playing);
+    assert!(bench.align.iteration > 0.0 && bench.align.playback == Playback::Playing);
     bench.act(AlignAction::Advance(60.0));
     assert_eq!(
-        (bench.place(), bench.align.playback),
+        (bench.iteration(), bench.align.playback),
         (last, Playback::Paused)
     );
     bench.act(AlignAction::Advance(1.0));
-    assert_eq!(bench.place(), last);
+    assert_eq!(bench.iteration(), last);
 }
 
 #[test]
@@ -367,7 +367,7 @@ fn poor_pairs_are_refused_in_words_in_each_methods_place() {
         assert!(problem.what.contains("4 points") && !problem.advice.is_empty());
         assert!(!problem.advice.contains("--"), "{}", problem.advice);
     }
-    assert_eq!(bench.align.last_place(), 0);
+    assert_eq!(bench.align.last_iteration(), 0);
     bench.act(AlignAction::Chosen(AlignFile::Target, none));
     bench.run(AlignAction::Run);
     assert_eq!(

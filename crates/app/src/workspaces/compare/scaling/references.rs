@@ -44,15 +44,15 @@ pub(super) fn originals(
 }
 
 /// Returns an original, or a perturbed copy of one with only the data that this matcher uses.
-pub(super) fn nth_reference(originals: &[Reference], place: usize, matcher: Matcher) -> Reference {
-    let original = &originals[place % originals.len()];
-    if place < originals.len() {
+pub(super) fn nth_reference(originals: &[Reference], index: usize, matcher: Matcher) -> Reference {
+    let original = &originals[index % originals.len()];
+    if index < originals.len() {
         return original.clone();
     }
-    let mut random = Pcg64::seed_from_u64(place as u64);
+    let mut random = Pcg64::seed_from_u64(index as u64);
     let swing = ScaleCurve::new(&mut random);
     let mut copy = original.clone();
-    copy.name = format!("{}_{place}", original.name);
+    copy.name = format!("{}_{index}", original.name);
     match matcher {
         Matcher::Default => {
             let views = original.views.iter().map(|view| perturb(view, &swing));

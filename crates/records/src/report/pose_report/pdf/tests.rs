@@ -150,7 +150,7 @@ fn a_refused_part_has_no_number_on_the_page_that_a_robot_takes() {
         text.contains("NOT ACCEPTED: do not move on this pose")
             && text.contains("No pose is given")
     );
-    assert!(text.contains("Unknown part") && !text.contains("\nAccepted"));
+    assert!(text.contains("Mirror image of fender") && !text.contains("\nAccepted"));
     assert!(text.contains("Source\na simulation"), "{text}");
     assert!(
         text.contains(", margin ") && !text.contains("ahead of"),
@@ -167,10 +167,11 @@ fn a_refused_part_has_no_number_on_the_page_that_a_robot_takes() {
 fn the_page_names_no_part_that_is_not_like_it() {
     let mut report = refused().report(None, Convention::Kuka);
     (report.verdict.part, report.verdict.nearest) = (None, Some("grille".into()));
-    for (score, is_named) in [(0.3, true), (0.01, false)] {
-        report.verdict.score = Some(score);
+    for is_like in [true, false] {
+        report.verdict.identification = Identification::Unknown { is_like };
         let text = text_of(&report, &PdfPictures::default());
-        assert_eq!(text.contains("Nearest enrolled part: grille"), is_named);
+        assert_eq!(text.contains("Nearest enrolled part: grille"), is_like);
+        assert!(text.contains("Unknown part"));
     }
 }
 
@@ -183,16 +184,16 @@ fn a_refused_part_that_was_recognised_is_called_by_its_title() {
         title: Some("Real door"),
         ..PdfPictures::default()
     };
-    for (score, margin, headline) in [
-        (0.97, 0.97, "Real door"),
-        (0.85, 0.97, "Part not accepted"),
-        (0.97, 0.43, "Part not accepted"),
+    for (found, headline) in [
+        (Identification::Part, "Real door"),
+        (Identification::AnotherModel, "Real door, another model"),
+        (Identification::NotRecognised, "Part not accepted"),
     ] {
-        (report.verdict.score, report.verdict.margin) = (Some(score), Some(margin));
+        report.verdict.identification = found;
         let text = text_of(&report, &pictures);
         assert!(text.contains(headline) && text.contains("NOT ACCEPTED"));
         let is_below = text.contains("Nearest enrolled part: Real door");
-        assert_eq!(is_below, headline != "Real door", "{text}");
+        assert_eq!(is_below, found == Identification::NotRecognised, "{text}");
     }
 }
 
