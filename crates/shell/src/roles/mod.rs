@@ -155,9 +155,7 @@ pub(crate) fn is_operators(workspace: WorkspaceKind) -> bool {
 /// Lists every action, so that each new one needs a decision.
 fn needs_engineer(action: &Action, has_pin: bool) -> bool {
     match action {
-        Action::GoTo(workspace) | Action::Press(workspace, _) => {
-            !is_operators(*workspace)
-        }
+        Action::GoTo(workspace) | Action::Press(workspace, _) => !is_operators(*workspace),
         Action::Ask(ask) | Action::Chosen(ask, _) => asks_for_engineer(*ask, has_pin),
         Action::Role(action) => matches!(
             action,
@@ -167,7 +165,8 @@ fn needs_engineer(action: &Action, has_pin: bool) -> bool {
         Action::Live(LiveAction::Use(_) | LiveAction::SetUp(Some(_)))
         | Action::UseCell(_)
         | Action::Open(_)
-        | Action::Take(..) | Action::TakeFile(_) => has_pin,
+        | Action::Take(..)
+        | Action::TakeFile(_) => has_pin,
         Action::Robot(action) => !matches!(
             action,
             RobotAction::Close | RobotAction::Check(CheckAction::Cancel)
@@ -411,6 +410,7 @@ mod tests {
             Action::Chosen(DialogRequest::Library, "other".into()),
             Action::TakeEmptyCell,
             Action::GoTo(WorkspaceKind::Enrol),
+            Action::EngineerIn(WorkspaceKind::History),
         ];
         for action in held_back {
             state.roles.asked = None;
@@ -472,6 +472,9 @@ mod tests {
         write(&mut state, "2468");
         assert_eq!(state.session.role, UserRole::Engineer);
         assert_eq!(state.session.workspace, WorkspaceKind::Compare);
+        // Nothing is asked any more.
+        let engineer_in = apply_any(&mut state, Action::EngineerIn(WorkspaceKind::History));
+        assert!(matches!(engineer_in, Some(Action::EngineerIn(_))));
         // Compare is not for the operator.
         apply(&mut state, RoleAction::Lock);
         assert_eq!(state.session.workspace, WorkspaceKind::Inspect);
