@@ -230,7 +230,7 @@ fn mount(mount: Mount) -> String {
 }
 
 /// Draws a transform in the robot's convention, with the meaning of the numbers.
-pub(super) fn pose(ui: &mut Ui, name: &str, transform: &RigidTransform, convention: Convention) {
+fn pose(ui: &mut Ui, name: &str, transform: &RigidTransform, convention: Convention) {
     let theme = Theme::of(ui);
     let written: RobotPose = convention.write(transform);
     heading(ui, &format!("{name} · {}", described(&convention)));
@@ -524,7 +524,7 @@ fn mounts(ui: &mut Ui, dialog: &mut RobotDialog) {
 }
 
 /// Draws the field for the name of a new calibration.
-pub(super) fn name(ui: &mut Ui, dialog: &mut RobotDialog) {
+fn name(ui: &mut Ui, dialog: &mut RobotDialog) {
     ui.horizontal(|ui| {
         let label = ui.label(text!("robot-name-of-cell"));
         ui.add(egui::TextEdit::singleline(&mut dialog.name).desired_width(280.0))

@@ -21,9 +21,13 @@ use ui::{
     language::{Language, described, keys, text},
     task::Running,
     theme::{ROUNDING, Theme, ThemeChoice, font, space},
-    widgets::{Mark, NARROW, by_width, labelled, line_mark, shortened, status_label, text_button},
+    widgets::{
+        Mark, NARROW, fixed_panel, labelled, line_mark, shortened, status_label, text_button,
+    },
 };
 
+/// Margins of a bar.
+const MARGIN: Margin = Margin::symmetric(14, 0);
 /// Width of the bar that is left to the status of Live, logical pixels.
 const LIVE_STATUS_WIDTH_PX: f32 = 180.0;
 /// Width below which the running work is not named beside its spinner, logical pixels: most words would be cut.
@@ -71,52 +75,46 @@ pub fn top(
     actions: &mut Vec<Action>,
 ) {
     let theme = Theme::of(ui);
-    let frame = Frame::new()
-        .fill(theme.panel)
-        .inner_margin(Margin::symmetric(14, 0));
-    Panel::top("top bar")
-        .exact_size(space::TOP_BAR)
-        .resizable(false)
-        .frame(frame)
-        .show(ui, |ui| {
-            ui.horizontal_centered(|ui| {
-                // In a narrow window, the controls and the status of Live need the room of the name.
-                if ui.ctx().content_rect().width() >= NARROW {
-                    let name = RichText::new("Partsight").font(font::body_strong());
-                    ui.label(name);
-                    ui.add_space(space::LARGE);
-                }
-                source_menu::ui(ui, state, actions);
-                robot_button(ui, state, robot, actions);
-                let name = text!("shell-capture");
-                let capture = RichText::new(&name).font(font::body_strong());
-                // The accent marks the next button to press; while a source is followed, there is none.
-                let capture = if state.session.is_live() {
-                    with_key(ui, Button::new(capture), "Space", theme.weak_text)
-                } else {
-                    let capture = Button::new(capture.color(theme.on_accent));
-                    with_key(ui, capture, "Space", theme.on_accent).fill(theme.accent)
-                };
-                if labelled(ui, capture, &name).clicked() {
-                    actions.push(Action::Capture);
-                }
-                live_button(ui, state, actions);
-                let name = text!("shell-open");
-                let open = with_key(ui, Button::new(&*name), "Ctrl O", theme.weak_text);
-                if labelled(ui, open, &name).clicked() {
-                    actions.push(Action::Ask(DialogRequest::Scene));
-                }
-                ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                    settings(ui, state, work.is_some(), actions);
-                    ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                        let session = &state.session;
-                        let shares = work.is_some() || has_live_chip(session);
-                        cell::chip(ui, robot, session, shares);
-                        progress(ui, state, work, actions);
-                    });
+    let panel = Panel::top("top bar").exact_size(space::TOP_BAR);
+    fixed_panel(ui, panel, MARGIN, |ui| {
+        ui.horizontal_centered(|ui| {
+            // In a narrow window, the controls and the status of Live need the room of the name.
+            if ui.ctx().content_rect().width() >= NARROW {
+                let name = RichText::new("Partsight").font(font::body_strong());
+                ui.label(name);
+                ui.add_space(space::LARGE);
+            }
+            source_menu::ui(ui, state, actions);
+            robot_button(ui, state, robot, actions);
+            let name = text!("shell-capture");
+            let capture = RichText::new(&name).font(font::body_strong());
+            // The accent marks the next button to press; while a source is followed, there is none.
+            let capture = if state.session.is_live() {
+                with_key(ui, Button::new(capture), "Space", theme.weak_text)
+            } else {
+                let capture = Button::new(capture.color(theme.on_accent));
+                with_key(ui, capture, "Space", theme.on_accent).fill(theme.accent)
+            };
+            if labelled(ui, capture, &name).clicked() {
+                actions.push(Action::Capture);
+            }
+            live_button(ui, state, actions);
+            let name = text!("shell-open");
+            let open = with_key(ui, Button::new(&*name), "Ctrl O", theme.weak_text);
+            if labelled(ui, open, &name).clicked() {
+                actions.push(Action::Ask(DialogRequest::Scene));
+            }
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                settings(ui, state, work.is_some(), actions);
+                ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                    let session = &state.session;
+                    let shares = work.is_some() || has_live_chip(session);
+                    cell::chip(ui, robot, session, shares);
+                    progress(ui, state, work, actions);
                 });
             });
         });
+    });
 }
 
 /// True while the status of Live is in the bar; in Inspect it is on the verdict card.
@@ -339,13 +337,6 @@ fn progress(ui: &mut Ui, state: &State, work: Option<Progress>, actions: &mut Ve
 const LOWER: f32 = 76.0;
 /// Height of its buttons, logical pixels.
 const BUTTON: f32 = 52.0;
-/// Width of the column beside the picture in a wide and in a narrow window, logical pixels.
-pub const COLUMN: [f32; 2] = [400.0, 320.0];
-
-/// Returns the width of the column beside the picture in a window of this width.
-pub fn column_width(window: f32) -> f32 {
-    by_width(window, COLUMN)
-}
 
 /// Draws both bars.
 pub fn operators(
@@ -355,24 +346,14 @@ pub fn operators(
     work: Option<Progress>,
     actions: &mut Vec<Action>,
 ) {
-    let theme = Theme::of(ui);
-    let frame = Frame::new()
-        .fill(theme.panel)
-        .inner_margin(Margin::symmetric(14, 0));
-    Panel::top("operator's upper bar")
-        .exact_size(space::TOP_BAR)
-        .resizable(false)
-        .frame(frame)
-        .show(ui, |ui| {
-            ui.horizontal_centered(|ui| upper(ui, state, robot, work, actions));
-        });
-    Panel::bottom("operator's lower bar")
-        .exact_size(LOWER)
-        .resizable(false)
-        .frame(frame)
-        .show(ui, |ui| {
-            ui.horizontal_centered(|ui| lower(ui, state, actions));
-        });
+    let panel = Panel::top("operator's upper bar").exact_size(space::TOP_BAR);
+    fixed_panel(ui, panel, MARGIN, |ui| {
+        ui.horizontal_centered(|ui| upper(ui, state, robot, work, actions));
+    });
+    let panel = Panel::bottom("operator's lower bar").exact_size(LOWER);
+    fixed_panel(ui, panel, MARGIN, |ui| {
+        ui.horizontal_centered(|ui| lower(ui, state, actions));
+    });
 }
 
 fn upper(

@@ -2,7 +2,7 @@
 //! switches it.
 
 use egui::{
-    Align, Color32, Frame, Layout, Painter, Panel, Popup, Pos2, Rect, RichText, Sense, Stroke,
+    Align, Color32, Layout, Margin, Painter, Panel, Popup, Pos2, Rect, RichText, Sense, Stroke,
     StrokeKind, Ui, pos2, vec2,
 };
 
@@ -15,50 +15,46 @@ use crate::{
 use ui::{
     language::text,
     theme::{Theme, font, space},
-    widgets::focus_ring,
+    widgets::{fixed_panel, focus_ring},
 };
 
 /// Draws the rail.
 pub fn ui(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
     let theme = Theme::of(ui);
-    let frame = Frame::new().fill(theme.panel);
-    Panel::left("rail")
-        .exact_size(space::RAIL)
-        .resizable(false)
-        .frame(frame)
-        .show(ui, |ui| {
-            // The keys of the other workspaces still work and ask for the engineer's view.
-            let is_engineer = state.session.role == UserRole::Engineer;
-            let listed = |workspace: &WorkspaceKind| is_engineer || is_operators(*workspace);
-            for workspace in WorkspaceKind::ALL.into_iter().filter(listed) {
-                let is_front = state.session.workspace == workspace;
-                let size = vec2(ui.available_width(), space::RAIL);
-                let (rect, response) = ui.allocate_exact_size(size, Sense::click());
-                let painter = ui.painter();
-                if is_front {
-                    painter.rect_filled(rect, 0.0, theme.control);
-                    let bar = Rect::from_min_size(rect.min, vec2(3.0, rect.height()));
-                    painter.rect_filled(bar, 0.0, theme.accent);
-                }
-                let colour = if is_front {
-                    theme.text
-                } else {
-                    theme.weak_text
-                };
-                let icon = rect.center() - vec2(0.0, 9.0);
-                sign(painter, workspace, icon, Stroke::new(1.6, colour));
-                label(painter, rect, &workspace.title(), colour);
-                focus_ring(ui, rect, &response);
-                response.widget_info(|| {
-                    let label = workspace.title();
-                    egui::WidgetInfo::selected(egui::Role::Tab, true, is_front, label)
-                });
-                if response.clicked() {
-                    actions.push(Action::GoTo(workspace));
-                }
+    let panel = Panel::left("rail").exact_size(space::RAIL);
+    fixed_panel(ui, panel, Margin::ZERO, |ui| {
+        // The keys of the other workspaces still work and ask for the engineer's view.
+        let is_engineer = state.session.role == UserRole::Engineer;
+        let listed = |workspace: &WorkspaceKind| is_engineer || is_operators(*workspace);
+        for workspace in WorkspaceKind::ALL.into_iter().filter(listed) {
+            let is_front = state.session.workspace == workspace;
+            let size = vec2(ui.available_width(), space::RAIL);
+            let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+            let painter = ui.painter();
+            if is_front {
+                painter.rect_filled(rect, 0.0, theme.control);
+                let bar = Rect::from_min_size(rect.min, vec2(3.0, rect.height()));
+                painter.rect_filled(bar, 0.0, theme.accent);
             }
-            role_button(ui, state, actions);
-        });
+            let colour = if is_front {
+                theme.text
+            } else {
+                theme.weak_text
+            };
+            let icon = rect.center() - vec2(0.0, 9.0);
+            sign(painter, workspace, icon, Stroke::new(1.6, colour));
+            label(painter, rect, &workspace.title(), colour);
+            focus_ring(ui, rect, &response);
+            response.widget_info(|| {
+                let label = workspace.title();
+                egui::WidgetInfo::selected(egui::Role::Tab, true, is_front, label)
+            });
+            if response.clicked() {
+                actions.push(Action::GoTo(workspace));
+            }
+        }
+        role_button(ui, state, actions);
+    });
 }
 
 /// Draws a name below a sign, in a smaller font if it is too long.

@@ -422,7 +422,7 @@ pub enum AlignFile {
 }
 
 impl AlignFile {
-    pub(super) fn request(self) -> FileRequest {
+    fn request(self) -> FileRequest {
         match self {
             Self::Source | Self::Target => FileRequest {
                 title: text!("align-open-title"),

@@ -548,7 +548,7 @@ pub enum EnrolFile {
 }
 
 impl EnrolFile {
-    pub(super) fn request(self) -> FileRequest {
+    fn request(self) -> FileRequest {
         match self {
             Self::SprayPath => FileRequest {
                 title: text!("enrol-path-file-title"),

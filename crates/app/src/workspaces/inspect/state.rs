@@ -477,7 +477,7 @@ pub enum InspectFile {
 
 impl InspectFile {
     /// The dialog to open; a new file is named after the part that was inspected last.
-    pub(super) fn request(self, session: &Session) -> FileRequest {
+    fn request(self, session: &Session) -> FileRequest {
         let shown = session.shown.as_ref();
         let verdict = shown.map(|shown| &shown.inspected.inspection.verdict);
         let verdict = verdict.filter(|verdict| !verdict.is_unknown());

@@ -582,7 +582,7 @@ pub enum PaintFile {
 
 impl PaintFile {
     /// The dialog to open. A new file is named after the part, a program as usual for the robot.
-    pub(super) fn request(self, part: Option<&PartName>, session: &Session) -> FileRequest {
+    fn request(self, part: Option<&PartName>, session: &Session) -> FileRequest {
         let part = part.map_or("part", PartName::as_str);
         match self {
             Self::Program => FileRequest {

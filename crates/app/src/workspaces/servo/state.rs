@@ -280,7 +280,7 @@ pub enum ServoFile {
 }
 
 impl ServoFile {
-    pub(super) fn request(self) -> FileRequest {
+    fn request(self) -> FileRequest {
         match self {
             Self::SeenAs => FileRequest {
                 title: text!("servoing-frame-title"),
