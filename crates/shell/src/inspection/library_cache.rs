@@ -4,7 +4,6 @@
 use std::{
     collections::HashMap,
     fs,
-    ops::Deref,
     path::{Path, PathBuf},
     sync::{Arc, Mutex, MutexGuard},
 };
@@ -63,11 +62,11 @@ pub struct LoadedLibrary {
     /// Where it is stored; `None` if it could not be loaded.
     pub place: Option<LibraryPlace>,
     /// The references, prepared with the default parameters.
-    pub library: Library,
+    pub library: Arc<Library>,
     /// The view of it for the window.
     pub shown: Arc<LibraryView>,
-    /// The references prepared for another recipe.
-    pub fitted: PreparedLibraryCache,
+    /// The references prepared last with other parameters.
+    fitted: Mutex<Option<(ReferenceParams, Arc<Library>)>>,
     /// The entries of its folder before it was loaded; none without a folder, or if one was still young.
     entries: Vec<folder_watch::Entry>,
 }
@@ -88,6 +87,40 @@ impl LoadedLibrary {
                 advice: text!("shell-inside-program-advice"),
             })
         })
+    }
+
+    /// Returns the references prepared with the recipe's parameters. Takes as long as loading the library unless the
+    /// parameters are the default or those of the last call; `None` if cancelled.
+    pub fn fitting(&self, recipe: &Recipe, watch: &dyn ProgressObserver) -> Option<Arc<Library>> {
+        let params = recipe.reference_params();
+        if params == ReferenceParams::default() {
+            return Some(Arc::clone(&self.library));
+        }
+        let lock = || lock(&self.fitted);
+        if let Some((known, library)) = &*lock()
+            && *known == params
+        {
+            return Some(Arc::clone(library));
+        }
+        let num = self.library.references.len();
+        let references = self.library.references.iter().zip(&self.shown.parts);
+        let references = references.map(|(loaded, meta)| {
+            if watch.is_cancelled() {
+                return None;
+            }
+            // Without an outline at these parameters it keeps the one it was loaded with, and its index.
+            let cloud = Arc::clone(&loaded.cloud);
+            let prepared = Reference::prepare(&loaded.name, cloud, meta.coverage, &params);
+            Some(prepared.map_or_else(
+                |_| loaded.clone(),
+                |prepared| prepared.with_cut(loaded.cut).for_library_of(num),
+            ))
+        });
+        let library = Arc::new(Library {
+            references: references.collect::<Option<_>>()?,
+        });
+        *lock() = Some((params, Arc::clone(&library)));
+        Some(library)
     }
 }
 
@@ -353,9 +386,9 @@ impl Choice {
         };
         let loaded = Arc::new(LoadedLibrary {
             place: None,
-            library: Library::default(),
+            library: Arc::default(),
             shown: Arc::new(shown),
-            fitted: PreparedLibraryCache::default(),
+            fitted: Mutex::default(),
             entries: Vec::new(),
         });
         self.loaded = Some(Arc::clone(&loaded));
@@ -452,9 +485,9 @@ fn load(
     });
     Ok(LoadedLibrary {
         place: Some(place),
-        library,
+        library: Arc::new(library),
         shown,
-        fitted: PreparedLibraryCache::default(),
+        fitted: Mutex::default(),
         entries: entries.unwrap_or_default(),
     })
 }
@@ -489,70 +522,6 @@ fn no_library(folder: &LibraryFolder) -> Option<UserError> {
         ),
         advice,
     })
-}
-
-/// The library prepared last with parameters other than the default.
-#[derive(Debug, Default)]
-pub struct PreparedLibraryCache(Mutex<Option<(ReferenceParams, Arc<Library>)>>);
-
-/// A library prepared for a recipe.
-#[derive(Debug)]
-pub enum PreparedLibrary<'a> {
-    /// The library as it was loaded.
-    AsLoaded(&'a Library),
-    /// Prepared again with other parameters.
-    Anew(Arc<Library>),
-}
-
-impl Deref for PreparedLibrary<'_> {
-    type Target = Library;
-
-    fn deref(&self) -> &Library {
-        match self {
-            Self::AsLoaded(library) => library,
-            Self::Anew(library) => library,
-        }
-    }
-}
-
-impl LoadedLibrary {
-    /// Returns the references prepared with the recipe's parameters. Takes as long as loading the library unless the
-    /// parameters are the default or those of the last call; `None` if cancelled.
-    pub fn fitting(
-        &self,
-        recipe: &Recipe,
-        watch: &dyn ProgressObserver,
-    ) -> Option<PreparedLibrary<'_>> {
-        let params = recipe.reference_params();
-        if params == ReferenceParams::default() {
-            return Some(PreparedLibrary::AsLoaded(&self.library));
-        }
-        let lock = || lock(&self.fitted.0);
-        if let Some((known, library)) = &*lock()
-            && *known == params
-        {
-            return Some(PreparedLibrary::Anew(Arc::clone(library)));
-        }
-        let num = self.library.references.len();
-        let references = self.library.references.iter().zip(&self.shown.parts);
-        let references = references.map(|(loaded, meta)| {
-            if watch.is_cancelled() {
-                return None;
-            }
-            // Without an outline at these parameters it keeps the one it was loaded with, and its index.
-            let cloud = Arc::clone(&loaded.cloud);
-            let prepared = Reference::prepare(&loaded.name, cloud, meta.coverage, &params);
-            Some(prepared.map_or_else(
-                |_| loaded.clone(),
-                |prepared| prepared.with_cut(loaded.cut).for_library_of(num),
-            ))
-        });
-        let library = Arc::new(Library {
-            references: references.collect::<Option<_>>()?,
-        });
-        *lock() = Some((params, Arc::clone(&library)));
-        Some(PreparedLibrary::Anew(library))
-    }
 }
 
 #[cfg(test)]
@@ -671,7 +640,7 @@ mod tests {
         let loaded = LibraryCache::default().get();
         let mut recipe = Recipe::default();
         let as_loaded = loaded.fitting(&recipe, &Unwatched).expect("loaded");
-        assert!(matches!(as_loaded, PreparedLibrary::AsLoaded(_)));
+        assert!(Arc::ptr_eq(&as_loaded, &loaded.library));
         recipe.signature.num_rays = 128;
         let fitted = loaded.fitting(&recipe, &Unwatched).expect("prepared");
         let names = |library: &Library| -> Vec<String> {
@@ -683,10 +652,7 @@ mod tests {
             assert_eq!(view.signature().rays.len(), 128);
         }
         let again = loaded.fitting(&recipe, &Unwatched).expect("known");
-        let (PreparedLibrary::Anew(first), PreparedLibrary::Anew(again)) = (fitted, again) else {
-            panic!("prepared anew");
-        };
-        assert!(Arc::ptr_eq(&first, &again));
+        assert!(Arc::ptr_eq(&fitted, &again));
 
         recipe.signature.num_rays = 64;
         assert!(loaded.fitting(&recipe, &CancellableProgress).is_none());
