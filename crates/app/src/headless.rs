@@ -19,7 +19,10 @@ use super::{
     window::{Window, WindowOptions},
     workspaces::inspect::WorkCounts,
 };
-use shell::{action::Action, context::ShellContext, workspace::Workspace};
+use shell::{
+    action::Action,
+    workspace::{ShellContext, Workspace},
+};
 use ui::viewport::ViewError;
 
 /// Format of the target texture.

@@ -24,34 +24,32 @@ use inspection::pipeline::{RecipeFolder, open_recipe};
 use records::history::{HistoryBuffer, Writer};
 use robot::{cell_check::CellCheckFolder, frame_poses::FRAME_POSES};
 use shell::{
-    action::{Action, DialogRequest, Effect},
+    action::{Action, DialogRequest, Event},
     apply::apply,
     cell::RobotCell,
-    context::Services,
-    file_dialog::{DialogLock, FileDialog},
-    frame::{dialogs, keys, notices, operator_bars, rail, top_bar},
+    file_dialog::{self, DialogLock, FileDialog},
+    frame::{bars, keys, notices, rail},
     inspection::{
         camera::Camera,
         inspected::Inspected,
         library_cache::{LibraryCache, ReadTakenVersion},
     },
-    message::{Event, Message},
     notice::{Notice, NoticeTopic},
-    path_entry, rack,
+    rack,
     roles::{self, RoleAction},
     session::{Source, ThemeChoice, UserRole, WorkspaceKind},
-    settings,
-    settings_file::Memory,
+    settings::{self, Memory},
     source::{
         inspect,
         live::{self, LiveAction},
+        source_menu,
     },
     state::{Closing, State, remove_notices},
     trace::{
-        entry, expecting,
-        scanner::{self, KeyTarget},
+        entry::{self, KeyTarget},
+        expecting,
     },
-    workspace::Workspace,
+    workspace::{Services, Workspace},
 };
 use ui::{
     language::{Language, text},
@@ -98,8 +96,8 @@ pub struct Window {
     services: Services,
     robot: RobotCell,
     workspaces: Vec<Box<dyn Workspace>>,
-    /// Messages of the workspaces that were not handled yet.
-    messages: Vec<Message>,
+    /// Actions that a workspace sent, which are carried out next.
+    sent: Vec<Action>,
     installed: Option<ThemeChoice>,
     gpu: Result<ViewportGpu, ViewError>,
     /// Time of the last input, seconds of egui's clock.
@@ -171,7 +169,7 @@ impl Window {
                 Box::new(ServoWorkspace::new(&gpu, &runner)),
                 Box::new(HistoryWorkspace::new(history_writer, kept, &runner)),
             ],
-            messages: Vec::new(),
+            sent: Vec::new(),
             installed: None,
             gpu: gpu.clone(),
             touched: ctx.input(|input| input.time),
@@ -209,7 +207,7 @@ impl Window {
             None if is_second && matches!(session.source, Source::Camera(_)) => None,
             None => Some(Action::Capture),
         };
-        window.state.load_library();
+        window.state.inspector.loader.load();
         // The first scene is inspected even if Enrol is in front; one that the user names is shown with its result.
         let front = std::mem::take(&mut window.state.session.workspace);
         window.state.inspector.is_start = true;
@@ -238,8 +236,42 @@ impl Window {
 
     /// Carries out an action that the user could cause.
     pub fn act(&mut self, action: Action, ctx: &egui::Context) {
-        if let Some(effect) = apply(&mut self.state, action) {
-            self.make(effect, ctx);
+        let Some(action) = apply(&mut self.state, action) else {
+            return;
+        };
+        match action {
+            Action::Ask(ask) => {
+                let lock = &self.services.dialogs;
+                self.dialog.open(ask, &notices::request(ask), lock, ctx);
+            }
+            Action::Press(kind, index) => {
+                self.lend(kind, ctx, |workspace, cx| workspace.press(index, cx));
+            }
+            Action::CancelTask(kind) => {
+                self.lend(kind, ctx, |workspace, _| workspace.cancel());
+            }
+            Action::Take(scene, title) => {
+                let front = self.state.session.workspace;
+                self.lend(front, ctx, |workspace, cx| {
+                    workspace.take_scene(scene, title, cx);
+                });
+            }
+            Action::TakeFile(path) => self.take_file(path, ctx),
+            Action::Robot(action) => self.with_robot(ctx, |robot, cx| robot.apply(action, cx)),
+            Action::Tell(event) => self.tell(&event, ctx),
+            Action::EngineerIn(kind) => {
+                self.lend(kind, ctx, |workspace, cx| {
+                    workspace.on_event(&Event::EngineerIn, cx);
+                });
+            }
+            Action::Close => {
+                if self.may_close() {
+                    ctx.send_viewport_cmd(egui::ViewportCommand::Close);
+                }
+            }
+            Action::CopyText(text) => ctx.copy_text(text),
+            // The state carries out all others.
+            _ => {}
         }
     }
 
@@ -247,40 +279,6 @@ impl Window {
     pub fn show_result(&mut self, inspected: Arc<Inspected>, ctx: &egui::Context) {
         let event = inspect::show_made(&mut self.state, inspected);
         self.tell(&event, ctx);
-    }
-
-    fn make(&mut self, effect: Effect, ctx: &egui::Context) {
-        match effect {
-            Effect::ShowDialog(ask) => {
-                let lock = &self.services.dialogs;
-                self.dialog.open(ask, &dialogs::request(ask), lock, ctx);
-            }
-            Effect::Press(kind, index) => {
-                self.lend(kind, ctx, |workspace, cx| workspace.press(index, cx));
-            }
-            Effect::CancelTask(kind) => {
-                self.lend(kind, ctx, |workspace, _| workspace.cancel());
-            }
-            Effect::Take(scene, title) => {
-                let front = self.state.session.workspace;
-                self.lend(front, ctx, |workspace, cx| {
-                    workspace.take_scene(scene, title, cx);
-                });
-            }
-            Effect::TakeFile(path) => self.take_file(path, ctx),
-            Effect::Robot(action) => self.with_robot(ctx, |robot, cx| robot.apply(action, cx)),
-            Effect::Tell(event) => self.tell(&event, ctx),
-            Effect::EngineerIn(kind) => {
-                self.lend(kind, ctx, |workspace, cx| {
-                    workspace.on_event(&Event::EngineerIn, cx);
-                });
-            }
-            Effect::Close => {
-                if self.may_close() {
-                    ctx.send_viewport_cmd(egui::ViewportCommand::Close);
-                }
-            }
-        }
     }
 
     /// True if nothing would be lost and no robot is answered, or the user has agreed; otherwise asks the user.
@@ -448,7 +446,7 @@ impl Window {
             .shift_watch
             .update(&mut self.state.session, history, ctx);
         if let Some(action) = self.with_robot(ctx, RobotCell::update) {
-            self.act(Action::Make(Effect::Robot(action)), ctx);
+            self.act(Action::Robot(action), ctx);
         }
         match self.dialog.poll() {
             Some((ask, Ok(path))) => self.act(Action::Chosen(ask, path), ctx),
@@ -476,7 +474,7 @@ impl Window {
             KeyTarget::Page
         };
         if self.state.session.role == UserRole::Operator
-            && let Some(code) = scanner::listen(&ctx, key_target)
+            && let Some(code) = entry::listen(&ctx, key_target)
         {
             if self.state.roles.may_be_pin(&code) {
                 let digits = code.chars().map(RoleAction::Digit);
@@ -490,9 +488,9 @@ impl Window {
         }
         let work = self.work();
         if self.state.session.is_operator_view() {
-            operator_bars::ui(ui, &self.state, &self.robot, work, &mut actions);
+            bars::operators(ui, &self.state, &self.robot, work, &mut actions);
         } else {
-            top_bar::ui(ui, &self.state, &self.robot, work, &mut actions);
+            bars::top(ui, &self.state, &self.robot, work, &mut actions);
             rail::ui(ui, &self.state, &mut actions);
         }
         let front = self.state.session.workspace;
@@ -508,17 +506,13 @@ impl Window {
         let hosted = self.hosted(front);
         let view_has_focus = hosted.is_some_and(Workspace::has_key_focus);
         let keys = hosted.map_or_else(Vec::new, Workspace::key_bindings);
-        live::set_up(&ctx, &self.state, &mut actions);
+        source_menu::set_up(&ctx, &self.state, &mut actions);
         rack::window(&ctx, &self.state, &mut actions);
         roles::dialog(&ctx, &self.state, &mut actions);
-        dialogs::closing(&ctx, &self.state, &mut actions);
+        notices::closing(&ctx, &self.state, &mut actions);
         let of_robot = self.robot.ui(&ctx, &self.state.session);
-        actions.extend(
-            of_robot
-                .into_iter()
-                .map(|action| Action::Make(Effect::Robot(action))),
-        );
-        path_entry::ui(&ctx, &self.services.dialogs);
+        actions.extend(of_robot.into_iter().map(Action::Robot));
+        file_dialog::ui(&ctx, &self.services.dialogs);
         keys::help(&ctx, &self.state, &keys, &mut actions);
         notices::ui(&ctx, room, &self.state, &mut actions);
         let is_behind_dialog = self.is_behind_dialog(&ctx);

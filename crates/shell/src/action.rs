@@ -1,22 +1,27 @@
-//! The actions of the window outside the workspaces, and their effects outside its state.
+//! The actions of the window outside the workspaces, and the events that it sends to them.
 
-use std::path::PathBuf;
+use std::{path::PathBuf, sync::Arc};
 
 use crate::{
-    cell::RobotAction,
-    inspection::source::{CellChoice, SceneOrScan},
-    message::Event,
-    notice::Notice,
+    cell::{AnswerSetup, ProgramSetup, RobotAction, ServoSettings},
+    inspection::{
+        inspected::{InspectJob, Inspected},
+        library_cache::LibraryView,
+        source::{CellChoice, ScanOrder, SceneOrScan},
+    },
+    notice::{Notice, NoticeTopic},
     rack::RackAction,
     roles::RoleAction,
-    session::WorkspaceKind,
+    session::{ReinspectionPurpose, RememberedCell, Source, WorkspaceKind},
     source::live::LiveAction,
     trace::orders::ExpectAction,
 };
-use robot::Convention;
+use inspection::pipeline::NamedRecipe;
+use records::history::{HungId, NewEntry, TraceChange, Traceability};
+use robot::{Convention, RobotFrame};
 use ui::language::Language;
 
-/// An action of the user or of the shell itself.
+/// An action of the user, of a workspace or of the shell itself.
 #[derive(Clone, Debug)]
 pub enum Action {
     /// Take a scene from the source and inspect it.
@@ -75,8 +80,70 @@ pub enum Action {
     Rack(RackAction),
     /// An action on the roles.
     Role(RoleAction),
-    /// Have this done outside the state, which does not change.
-    Make(Effect),
+    /// Perform the key at this index of a workspace's own keys.
+    Press(WorkspaceKind, usize),
+    /// Cancel the running work of a workspace.
+    CancelTask(WorkspaceKind),
+    /// Hand a scene or scan with this title to the workspace in front.
+    Take(SceneOrScan, String),
+    /// Inspect this file, or enrol it if Enrol is in front.
+    TakeFile(PathBuf),
+    /// An action on the robot's cell.
+    Robot(RobotAction),
+    /// Send an event to every workspace.
+    Tell(Event),
+    /// Tell this workspace, which asks for it, that the engineer's view is granted.
+    EngineerIn(WorkspaceKind),
+    /// Close the window, unless something would be lost.
+    Close,
+    /// Remove this notice, if it is still shown.
+    Retract(Notice),
+    /// Remove the notices about this.
+    RemoveNotices(NoticeTopic),
+    /// Remove the offer to undo from the notices of this workspace.
+    WithdrawUndo(WorkspaceKind),
+    /// Copy this to the clipboard.
+    CopyText(String),
+    /// Take scenes from this source from the next capture on.
+    UseSource(Source),
+    /// Use this recipe from now on.
+    UseRecipe(Arc<NamedRecipe>),
+    /// Use this calibration of the robot's cell, with the robot frame that it gives.
+    UseCalibration(RememberedCell, Option<Arc<RobotFrame>>),
+    /// Answer robots with these settings.
+    UseAnswering(AnswerSetup),
+    /// Write robot programs for this arm and gun.
+    UseProgramSetup(ProgramSetup),
+    /// Servo with these settings.
+    UseServoSettings(ServoSettings),
+    /// The library was changed: use it. If Live is on, it starts over; else inspect `saved`, or the scene in front unless
+    /// another inspection is running.
+    LibraryChanged {
+        /// The changed library.
+        library: Arc<LibraryView>,
+        /// The saved scene or scan, if it can be inspected and nothing newer was captured.
+        saved: Option<SceneOrScan>,
+    },
+    /// Inspect this, and show the result.
+    Inspect {
+        /// Description for the user.
+        title: String,
+        /// The scene or scan to inspect.
+        job: InspectJob,
+        /// Purpose of the inspection.
+        purpose: ReinspectionPurpose,
+        /// The hung part, if this is another inspection of it; `None` for something new.
+        hung: Option<HungId>,
+        /// Traceability of that part.
+        trace: Traceability,
+    },
+    /// Inspect the scene in front again, as a new inspection.
+    InspectShown {
+        /// Description for the user.
+        title: String,
+    },
+    /// Show a past inspection in Inspect.
+    ShowPast(Arc<Inspected>),
 }
 
 /// A choice of a file or folder by the user.
@@ -104,25 +171,30 @@ pub enum DialogRequest {
     Orders,
 }
 
-/// Work to be done outside the state.
+/// An event that the shell sends to workspaces.
 #[derive(Clone, Debug)]
-pub enum Effect {
-    /// Show the system's dialog.
-    ShowDialog(DialogRequest),
-    /// Perform the key at this index of a workspace's own keys.
-    Press(WorkspaceKind, usize),
-    /// Cancel the running work of a workspace.
-    CancelTask(WorkspaceKind),
-    /// Hand a scene or scan with this title to the workspace in front.
-    Take(SceneOrScan, String),
-    /// Inspect this file, or enrol it if Enrol is in front.
-    TakeFile(PathBuf),
-    /// Carry out an action on the robot's cell.
-    Robot(RobotAction),
-    /// Send an event to every workspace.
-    Tell(Event),
-    /// Tell this workspace that the engineer's view was granted.
-    EngineerIn(WorkspaceKind),
-    /// Close the window.
-    Close,
+pub enum Event {
+    /// A scene was inspected.
+    Inspected {
+        /// The parts of the frame, at least one.
+        parts: Vec<Arc<Inspected>>,
+        /// Purpose of the inspection.
+        purpose: ReinspectionPurpose,
+    },
+    /// A part left the followed source before its verdict counted, or following stopped before.
+    Left(Box<NewEntry>),
+    /// The traceability of this part, which has been recorded, changed after its verdict.
+    TracedLate(HungId, TraceChange),
+    /// The poses of these shots were not found: the user has to choose their file.
+    PosesWanted(ScanOrder),
+    /// Ask the user where to save the report of the inspection in front.
+    Export,
+    /// Esc was pressed with nothing on top of the workspaces.
+    Escape,
+    /// The engineer's view, requested by this workspace, was granted.
+    EngineerIn,
+    /// The user says that this part, the one on the screen, was recognised wrongly.
+    WrongPart(HungId),
+    /// The user wants to undo what the last notice of this workspace offers to undo.
+    Undo(WorkspaceKind),
 }

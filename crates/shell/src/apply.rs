@@ -3,22 +3,22 @@
 use std::path::{self, PathBuf};
 
 use crate::{
-    action::{Action, DialogRequest, Effect},
-    inspection::scan_choice::ScanFiles,
-    message::Event,
-    notice::Notice,
+    action::{Action, DialogRequest, Event},
+    cell::AnswerSetup,
+    inspection::source::ScanFiles,
+    notice::{Notice, NoticeKind},
     rack::{self, RackAction},
     roles,
-    session::{Source, WorkspaceKind},
+    session::{ReinspectionPurpose, Source, WorkspaceKind},
     source::live::{self, LiveAction},
-    state::{Closing, State, notify},
+    state::{Closing, State, notify, remove_notices},
     trace::expecting,
 };
 use capture::{Pace, RecordingSpec, SourceSpec, WatchedFrom, WatchedSpec};
 use ui::language::text;
 
-/// Carries out an action.
-pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
+/// Carries out an action; returns it, or the one that follows from it, if it reaches beyond the state.
+pub fn apply(state: &mut State, action: Action) -> Option<Action> {
     let action = roles::permitted(state, action)?;
     match action {
         Action::Capture => return state.capture(),
@@ -35,9 +35,8 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
             live::restart_consensus(state);
         }
         Action::Ask(DialogRequest::Scene) if state.session.workspace == WorkspaceKind::Enrol => {
-            return Some(Effect::ShowDialog(DialogRequest::Part));
+            return Some(Action::Ask(DialogRequest::Part));
         }
-        Action::Ask(ask) => return Some(Effect::ShowDialog(ask)),
         Action::Chosen(ask, path) => return chosen(state, ask, path),
         Action::Open(path) if path.is_dir() => return chosen(state, DialogRequest::Scan, path),
         Action::Open(path) => return chosen(state, DialogRequest::Scene, path),
@@ -52,15 +51,10 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
         Action::WrongPart => {
             let part = state.session.current_result()?.hung().clone();
             state.session.workspace = WorkspaceKind::History;
-            return Some(Effect::Tell(Event::WrongPart(part)));
+            return Some(Action::Tell(Event::WrongPart(part)));
         }
-        Action::CloseTop => {
-            if state.is_help_open {
-                state.is_help_open = false;
-            } else {
-                return Some(Effect::Tell(Event::Escape));
-            }
-        }
+        Action::CloseTop if state.is_help_open => state.is_help_open = false,
+        Action::CloseTop => return Some(Action::Tell(Event::Escape)),
         Action::SwitchUnits => state.session.units = state.session.units.other(),
         Action::UseConvention(convention) => state.session.convention = convention,
         Action::SwitchTheme => state.session.theme = state.session.theme.other(),
@@ -70,72 +64,116 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
         }
         Action::ToggleHelp => state.is_help_open = !state.is_help_open,
         Action::Dismiss(index) => {
-            if index < state.notices.len() {
-                state.notices.remove(index);
-            }
+            take_notice(state, index);
         }
         Action::DismissAll => state.notices.clear(),
         Action::Reread(index) => {
-            if index < state.notices.len() {
-                let notice = state.notices.remove(index);
-                return notice.in_millimetres.map(Effect::TakeFile);
-            }
+            let path = take_notice(state, index)?.in_millimetres;
+            return path.map(Action::TakeFile);
         }
         Action::Notify(notice) => notify(state, notice),
+        Action::Retract(notice) => state.notices.retain(|known| *known != notice),
+        Action::RemoveNotices(topic) => remove_notices(state, topic),
+        Action::WithdrawUndo(workspace) => withdraw_undo(state, workspace),
         Action::CloseAnyway => {
             state.closing = Closing::Confirmed;
-            return Some(Effect::Close);
+            return Some(Action::Close);
         }
         Action::StayOpen => state.closing = Closing::No,
-        Action::Rack(action) => return rack::apply(state, action),
+        Action::Rack(action) => rack::apply(state, action),
         Action::Expect(action) => expecting::apply(state, action),
         Action::Role(action) => return roles::apply(state, action),
         Action::Live(action) => return live::apply(state, action),
-        Action::Make(effect) => return Some(effect),
+        Action::UseSource(source) => state.session.source = source,
+        Action::UseRecipe(recipe) => state.session.recipe = recipe,
+        Action::UseCalibration(cell, robot) => state.use_calibration(cell, robot),
+        Action::UseAnswering(setup) => return use_answering(state, setup),
+        Action::UseProgramSetup(setup) => state.session.program = setup,
+        Action::UseServoSettings(setup) => state.session.servo = setup,
+        Action::LibraryChanged { library, saved } => state.library_changed(&library, saved),
+        Action::Inspect {
+            title,
+            job,
+            purpose,
+            hung,
+            trace,
+        } => state.inspect_again_as(title, job, purpose, hung, trace),
+        Action::InspectShown { title } => state.inspect_shown(&title, ReinspectionPurpose::New),
+        Action::ShowPast(inspected) => state.show_past(inspected),
+        Action::Ask(_)
+        | Action::Press(..)
+        | Action::CancelTask(_)
+        | Action::Take(..)
+        | Action::TakeFile(_)
+        | Action::Robot(_)
+        | Action::Tell(_)
+        | Action::EngineerIn(_)
+        | Action::CopyText(_)
+        | Action::Close => return Some(action),
+    }
+    None
+}
+
+/// Removes the notice at this index.
+fn take_notice(state: &mut State, index: usize) -> Option<Notice> {
+    (index < state.notices.len()).then(|| state.notices.remove(index))
+}
+
+/// Removes the offer to undo from the notices of this workspace.
+fn withdraw_undo(state: &mut State, workspace: WorkspaceKind) {
+    for notice in &mut state.notices {
+        if notice.kind == NoticeKind::Undoable(workspace) {
+            notice.kind = NoticeKind::Done;
+        }
+    }
+}
+
+/// Answers robots with these settings. Follows the source once they are answered: without frames no trigger could be.
+fn use_answering(state: &mut State, setup: AnswerSetup) -> Option<Action> {
+    let session = &mut state.session;
+    let was_on = std::mem::replace(&mut session.answering, setup).is_on;
+    let can_follow = !session.is_live() && session.source.followed().is_some();
+    if setup.is_on && !was_on && can_follow {
+        return live::apply(state, LiveAction::Toggle);
     }
     None
 }
 
 /// Handles the file or folder that was chosen.
-fn chosen(state: &mut State, ask: DialogRequest, path: PathBuf) -> Option<Effect> {
+fn chosen(state: &mut State, ask: DialogRequest, path: PathBuf) -> Option<Action> {
     // The path is remembered, and the next start may be in another working folder.
     let path = path::absolute(&path).unwrap_or(path);
     match ask {
-        DialogRequest::Scene | DialogRequest::Part => state.open(Source::File(path)),
-        DialogRequest::Scan => state.open(Source::Scan(ScanFiles::of_folder(path))),
+        DialogRequest::Scene | DialogRequest::Part => return state.open(Source::File(path)),
+        DialogRequest::Scan => return state.open(Source::Scan(ScanFiles::of_folder(path))),
         DialogRequest::Recording => {
             let spec = SourceSpec::Recording(RecordingSpec {
                 folder: path,
                 pace: Some(Pace::AsTaken),
                 camera: None,
             });
-            live::apply(state, LiveAction::Use(spec))
+            return live::apply(state, LiveAction::Use(spec));
         }
         DialogRequest::WatchedFolder => {
             let spec = SourceSpec::Watched(WatchedSpec {
                 folder: path,
                 from: WatchedFrom::default(),
             });
-            live::apply(state, LiveAction::Use(spec))
+            return live::apply(state, LiveAction::Use(spec));
         }
         DialogRequest::Rack => rack::apply(state, RackAction::Open(path)),
         DialogRequest::SaveRack => rack::apply(state, RackAction::Save(path)),
-        DialogRequest::RecordTo => live::apply(state, LiveAction::Record(path)),
-        DialogRequest::Library => {
-            state.open_library(Some(path));
-            None
-        }
-        DialogRequest::Orders => {
-            expecting::use_orders(state, path);
-            None
-        }
+        DialogRequest::RecordTo => return live::apply(state, LiveAction::Record(path)),
+        DialogRequest::Library => state.open_library(Some(path)),
+        DialogRequest::Orders => expecting::use_orders(state, path),
     }
+    None
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{inspection::source::SceneOrScan, notice::NoticeTopic, state::remove_notices};
+    use crate::{inspection::source::SceneOrScan, notice::NoticeTopic};
 
     #[test]
     fn captures_are_enrolled_while_the_workspace_is_in_front_and_inspected_otherwise() {
@@ -148,7 +186,7 @@ mod tests {
         for action in [Action::Capture, Action::Open("door.pcd".into())] {
             let effect = apply(&mut state, action);
             assert!(
-                matches!(effect, Some(Effect::Take(SceneOrScan::Scene(_), _))),
+                matches!(effect, Some(Action::Take(SceneOrScan::Scene(_), _))),
                 "{effect:?}"
             );
         }
@@ -188,7 +226,7 @@ mod tests {
         assert!(apply(&mut state, Action::CloseTop).is_none());
         assert!(!state.is_help_open);
         let effect = apply(&mut state, Action::CloseTop);
-        assert!(matches!(effect, Some(Effect::Tell(Event::Escape))));
+        assert!(matches!(effect, Some(Action::Tell(Event::Escape))));
     }
 
     #[test]

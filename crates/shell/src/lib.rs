@@ -1,11 +1,10 @@
-//! The window around its workspaces: the session that they share, messages and notices, and what stands around them.
+//! The window around its workspaces: the session that they share, actions and notices, and what stands around them.
 //!
 //! - [`frame`]: the bars above, below and beside the work, the notices, the keys, and the question before the window closes.
 //! - [`source`]: takes scenes from the source, once or continuously, and inspects them.
 //! - [`cell`]: the robot's cell, its calibration and its check, and the answers to robots.
 //! - [`rack`]: where parts may hang, and the window in which that is edited.
 //! - [`roles`]: the operator's and the engineer's view. [`trace`]: serial numbers and orders, typed or scanned.
-//! - [`servo_curve`]: the curve of a run of visual servoing.
 //! - [`inspection`]: a scene, its result and the data drawn for both; no session. [`language`]: the texts of results.
 //!
 //! A control outside the workspaces causes an [`action`], which changes the window's [`state`]. Workspaces are above: the shell
@@ -16,24 +15,17 @@
 pub mod action;
 pub mod apply;
 pub mod cell;
-pub mod context;
 pub mod file_dialog;
 pub mod frame;
 pub mod inspection;
 pub mod language;
-pub mod message;
 pub mod notice;
-pub mod path_entry;
 pub mod rack;
 pub mod roles;
-pub mod servo_curve;
 pub mod session;
 pub mod settings;
-pub mod settings_file;
 pub mod shift;
 pub mod source;
-pub mod standing;
 pub mod state;
 pub mod trace;
-pub mod truth_menu;
 pub mod workspace;

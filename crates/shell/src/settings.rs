@@ -3,32 +3,32 @@
 use std::{
     io,
     path::{Path, PathBuf},
-    sync::Arc,
+    sync::{Arc, Mutex},
 };
 
 use serde::{Deserialize, Deserializer, Serialize, de::IntoDeserializer as _};
 use toml::{Table, Value};
 
-use super::{
-    roles::{LOCK_AFTER, Pin, RoleState, is_operators},
-    session::{RememberedCell, Session, ShiftStarts, Source, ThemeChoice, UserRole, WorkspaceKind},
-    state::State,
-};
 use crate::{
     cell::{AnswerSetup, ProgramSetup, ServoSettings},
-    inspection::{library_cache::LibraryCache, unit_system::UnitSystem},
+    inspection::library_cache::LibraryCache,
+    language::UnitSystem,
+    notice::Notice,
     rack::RackInUse,
+    roles::{LOCK_AFTER, Pin, RoleState, is_operators},
+    session::{RememberedCell, Session, ShiftStarts, Source, ThemeChoice, UserRole, WorkspaceKind},
     source::live::LiveState,
+    state::State,
     trace::{current_trace::CurrentTrace, orders::Expecting},
 };
 use files::{FileError, advice_on, disk, user_settings, write_text};
-use geometry::error::Advice as _;
+use geometry::error::{Advice as _, lock};
 use inspection::pipeline::{NamedRecipe, Recipe, RecipeLabel, parameters::is_valid};
 use records::history::Traceability;
 use robot::Convention;
 use ui::{
     language::{Language, text},
-    task::TaskRunner,
+    task::{Task, TaskRunner},
     user_error::UserError,
 };
 
@@ -357,12 +357,68 @@ pub fn save(path: &Path, settings: &Settings) -> Result<(), UserError> {
     write_text(path, &text).map_err(|error| not_kept(error.to_string(), &error.advice()))
 }
 
+/// Writes the settings whenever they change, in a task.
+pub struct Memory {
+    path: Option<PathBuf>,
+    writing: Task<()>,
+    /// Prevents an older write from finishing after a newer one.
+    turn: Arc<Mutex<()>>,
+    kept: Settings,
+    has_changed: bool,
+}
+
+impl Memory {
+    /// Without a path nothing is kept.
+    pub fn new(path: Option<PathBuf>, kept: Settings, runner: &TaskRunner) -> Self {
+        Self {
+            path,
+            writing: Task::new("settings", runner),
+            turn: Arc::default(),
+            kept,
+            has_changed: false,
+        }
+    }
+
+    /// Writes changed settings; returns a notice if writing failed.
+    pub fn keep(&mut self, state: &State, ctx: &egui::Context) -> Option<Notice> {
+        let path = self.path.as_ref()?;
+        let window = ctx.input(|input| input.viewport().inner_rect.map(|rect| rect.size()));
+        let window = window.map_or(self.kept.window, |size| Some([size.x, size.y]));
+        let settings = Settings::of(state, window);
+        if settings != self.kept {
+            self.kept = settings.clone();
+            self.has_changed = true;
+            let path = path.clone();
+            let turn = Arc::clone(&self.turn);
+            self.writing
+                .start(text!("shell-writing-settings"), move |context| {
+                    let _turn = lock(&turn);
+                    context.check()?;
+                    save(&path, &settings).map_err(Into::into)
+                });
+        }
+        self.writing.poll()?.err().map(Notice::from)
+    }
+
+    /// Writes what may not have been written yet.
+    pub fn finish(&mut self) {
+        if let Some(path) = &self.path
+            && self.has_changed
+        {
+            self.writing.cancel();
+            let _turn = lock(&self.turn);
+            // The window is closing, so that an error can no longer be shown.
+            let _ = save(path, &self.kept);
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
+    use super::*;
     use std::fs;
 
-    use super::*;
-    use crate::inspection::scan_choice::ScanFiles;
+    use crate::inspection::source::ScanFiles;
     use geometry::units::Metres;
     use robot::program::ProgramParams;
     use serve::PoseKind;
@@ -574,5 +630,22 @@ mod tests {
             between: &[],
         }
         .fails_at_every_call();
+    }
+
+    #[test]
+    fn an_older_write_does_not_replace_what_was_written_at_the_end() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("settings.toml");
+        let runner = TaskRunner::without_threads();
+        let mut memory = Memory::new(Some(path.clone()), Settings::default(), &runner);
+        let mut state = State::default();
+        state.session.live.params.average = 2;
+        let none = memory.keep(&state, &egui::Context::default());
+        assert!(none.is_none() && memory.writing.running().is_some());
+        memory.kept.average = 5;
+        memory.finish();
+        // The job of the older settings comes to its turn only now.
+        memory.writing.run_waiting();
+        assert_eq!(load(&path).0.average, 5);
     }
 }

@@ -10,12 +10,10 @@
 mod list;
 mod overlay;
 mod state;
-mod summary;
 
 pub use self::state::{Asked, ShotsAction, ShotsFile, ShotsState, StripTab};
 pub(crate) use self::{
-    list::{ShotList, ShownShots},
+    list::{ShotList, ShownShots, summary},
     overlay::{Overlay, POINT_SIZE},
     state::source_of,
-    summary::summary,
 };

@@ -4,7 +4,7 @@
 use egui::Color32;
 
 use geometry::units::Metres;
-use shell::inspection::{fuse::FusedShots, scan_figure::ScanFigure};
+use shell::inspection::scan::{FusedShots, ScanFigure};
 use ui::{
     language::text,
     viewport::{PointSet, Role, TextLabel, ViewColours, ViewScene},

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use shell::{
     file_dialog::{FileChoice, FileRequest, all_files},
-    inspection::scan_choice::{ScanFiles, ScanOrder, ShotChoice},
+    inspection::source::{ScanFiles, ScanOrder, ShotChoice},
     notice::Notice,
     session::Source,
 };

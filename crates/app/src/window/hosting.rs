@@ -1,21 +1,15 @@
-//! The window's access to its workspaces through their trait: lends them the shell and handles their messages.
+//! The window's access to its workspaces through their trait: lends them the shell and carries out the actions that they send.
 
 use std::any::Any;
 
 use super::Window;
 use records::history::HistoryBuffer;
 use shell::{
-    action::{Action, Effect},
+    action::Action,
     cell::RobotCell,
-    context::ShellContext,
-    frame::top_bar::Progress,
-    message::Message,
-    notice::NoticeKind,
-    roles,
-    session::{ReinspectionPurpose, WorkspaceKind},
-    source::live::LiveAction,
-    state::remove_notices,
-    workspace::Workspace,
+    frame::bars::Progress,
+    session::WorkspaceKind,
+    workspace::{ShellContext, Workspace},
 };
 
 impl Window {
@@ -53,7 +47,7 @@ impl Window {
         all.find(|workspace| workspace.kind() == kind)
     }
 
-    /// Lends a workspace the shell, then handles the messages that it sent.
+    /// Lends a workspace the shell, then carries out the actions that it sent.
     pub(super) fn lend<R>(
         &mut self,
         kind: WorkspaceKind,
@@ -63,88 +57,28 @@ impl Window {
         let mut all = self.workspaces.iter_mut();
         let workspace = all.find(|workspace| workspace.kind() == kind)?;
         let (session, services) = (&self.state.session, &self.services);
-        let mut cx = ShellContext::new(ctx, session, services, &mut self.messages);
+        let mut cx = ShellContext::new(ctx, session, services, &mut self.sent);
         let done = act(workspace.as_mut(), &mut cx);
-        self.deliver_all(kind, ctx);
+        self.carry_out_sent(ctx);
         Some(done)
     }
 
-    /// Lends the robot's cell the shell, then handles the messages that it sent.
+    /// Lends the robot's cell the shell, then carries out the actions that it sent.
     pub(super) fn with_robot<R>(
         &mut self,
         ctx: &egui::Context,
         act: impl FnOnce(&mut RobotCell, &mut ShellContext<'_>) -> R,
     ) -> R {
         let (session, services) = (&self.state.session, &self.services);
-        let mut cx = ShellContext::new(ctx, session, services, &mut self.messages);
+        let mut cx = ShellContext::new(ctx, session, services, &mut self.sent);
         let done = act(&mut self.robot, &mut cx);
-        self.deliver_all(self.state.session.workspace, ctx);
+        self.carry_out_sent(ctx);
         done
     }
 
-    fn deliver_all(&mut self, from: WorkspaceKind, ctx: &egui::Context) {
-        for message in std::mem::take(&mut self.messages) {
-            self.deliver(message, from, ctx);
-        }
-    }
-
-    /// Handles a message of a workspace.
-    fn deliver(&mut self, message: Message, from: WorkspaceKind, ctx: &egui::Context) {
-        match message {
-            Message::Notify(notice) => self.act(Action::Notify(notice), ctx),
-            Message::Retract(notice) => self.state.notices.retain(|known| *known != notice),
-            Message::RemoveNotices(topic) => remove_notices(&mut self.state, topic),
-            Message::WithdrawUndo => {
-                for notice in &mut self.state.notices {
-                    if notice.kind == NoticeKind::Undoable(from) {
-                        notice.kind = NoticeKind::Done;
-                    }
-                }
-            }
-            Message::CopyText(text) => ctx.copy_text(text),
-            Message::UseSource(source) => self.state.session.source = source,
-            Message::LibraryChanged { library, saved } => {
-                self.state.library_changed(&library, saved);
-            }
-            Message::UseRecipe(recipe) => self.state.session.recipe = recipe,
-            Message::UseCalibration(cell, robot) => {
-                self.state.session.cell = cell;
-                self.services.library_cache.use_robot(robot.clone());
-                let before = self.state.session.rack.clone();
-                self.state.session.use_robot(robot);
-                let is_moved = self.state.session.rack.in_camera() != before.in_camera();
-                if is_moved && self.state.session.shown.is_some() {
-                    self.state.inspect_again();
-                }
-            }
-            Message::UseAnswering(setup) => {
-                let session = &mut self.state.session;
-                let was_on = std::mem::replace(&mut session.answering, setup).is_on;
-                let can_follow = !session.is_live() && session.source.followed().is_some();
-                if setup.is_on && !was_on && can_follow {
-                    // Without frames no trigger could be answered.
-                    self.act(Action::Live(LiveAction::Toggle), ctx);
-                }
-            }
-            Message::UseProgramSetup(setup) => self.state.session.program = setup,
-            Message::UseServoSettings(setup) => self.state.session.servo = setup,
-            Message::Act(action) => self.act(action, ctx),
-            Message::ShowPast(inspected) => self.state.show_past(inspected),
-            Message::AskEngineer => {
-                roles::ask_engineer(&mut self.state, Action::Make(Effect::EngineerIn(from)));
-            }
-            Message::InspectShown { title } => {
-                self.state.inspect_shown(&title, ReinspectionPurpose::New);
-            }
-            Message::Inspect {
-                title,
-                job,
-                purpose,
-                hung,
-                trace,
-            } => self
-                .state
-                .inspect_again_as(title, job, purpose, hung, trace),
+    fn carry_out_sent(&mut self, ctx: &egui::Context) {
+        for action in std::mem::take(&mut self.sent) {
+            self.act(action, ctx);
         }
     }
 
@@ -152,7 +86,7 @@ impl Window {
     pub(super) fn work(&self) -> Option<Progress> {
         let of_hosted = |workspace: &dyn Workspace| {
             let running = workspace.running()?.clone();
-            let cancel = Some(Action::Make(Effect::CancelTask(workspace.kind())));
+            let cancel = Some(Action::CancelTask(workspace.kind()));
             Some(Progress { running, cancel })
         };
         let own = self

@@ -24,7 +24,7 @@ use records::history::{Filter, HistoryBuffer, StoredVerdict};
 use robot::Convention;
 use serve::{PoseKind, VerdictCode};
 use shell::{
-    action::{Action, DialogRequest, Effect},
+    action::{Action, DialogRequest},
     cell::{AnswerSetup, RobotAction, RobotDialog, RobotPage},
     inspection::camera::Camera,
     roles::RoleAction,
@@ -112,10 +112,7 @@ fn cause(harness: &mut WindowHarness, action: Action) {
 }
 
 fn answer(harness: &mut WindowHarness, setup: AnswerSetup) {
-    cause(
-        harness,
-        Action::Make(Effect::Robot(RobotAction::Answer(setup))),
-    );
+    cause(harness, Action::Robot(RobotAction::Answer(setup)));
 }
 
 fn on_at(at: &str) -> AnswerSetup {
@@ -452,11 +449,11 @@ fn parts_are_numbered_once_robots_are_answered_and_keep_their_numbers() {
 
 /// Opens the dialog at the page on answering.
 fn turn_to_page(harness: &mut WindowHarness) {
-    cause(harness, Action::Make(Effect::Robot(RobotAction::Toggle)));
+    cause(harness, Action::Robot(RobotAction::Toggle));
     let mut dialog = harness.state().robot().dialog().expect("open").clone();
     dialog.page = RobotPage::Answer;
     let turned = RobotAction::Edit(Box::new(dialog));
-    cause(harness, Action::Make(Effect::Robot(turned)));
+    cause(harness, Action::Robot(turned));
 }
 
 #[test]
@@ -490,10 +487,7 @@ fn what_robots_are_answered_in_changes_on_its_page_alone_after_a_question_and_wi
             address: "0".into(),
             ..dialog
         };
-        cause(
-            harness,
-            Action::Make(Effect::Robot(RobotAction::Edit(Box::new(chosen)))),
-        );
+        cause(harness, Action::Robot(RobotAction::Edit(Box::new(chosen))));
         harness.get_by_label("Use it").click();
         harness.run_steps(4);
         assert!(says(harness, "Robots are being answered"));
@@ -543,7 +537,7 @@ fn a_window_that_answers_robots_asks_before_it_closes() {
         harness.get_by_label(label).click();
         harness.run_steps(4);
     };
-    cause(&mut harness, Action::Make(Effect::Close));
+    cause(&mut harness, Action::Close);
     assert!(is_asking(&harness));
     assert!(says(
         &harness,
@@ -567,7 +561,7 @@ fn a_window_that_answers_robots_asks_before_it_closes() {
     });
     listening(&mut harness);
     turn_off(&mut harness);
-    cause(&mut harness, Action::Make(Effect::Close));
+    cause(&mut harness, Action::Close);
     assert!(!is_asking(&harness));
 }
 
@@ -616,7 +610,7 @@ fn nobody_is_answered_without_a_calibration_or_at_no_address() {
         ..dialog
     };
     let edit = RobotAction::Edit(Box::new(open_to_all));
-    act(&mut harness, Action::Make(Effect::Robot(edit)));
+    act(&mut harness, Action::Robot(edit));
     harness.get_by_label_contains("is open to the network without encryption");
 }
 

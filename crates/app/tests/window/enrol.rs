@@ -20,11 +20,8 @@ use inspection::{
     pipeline::Verdict,
 };
 use shell::{
-    action::{Action, Effect},
-    inspection::source::CellChoice,
-    session::WorkspaceKind,
-    source::live::SourceState,
-    state::State,
+    action::Action, inspection::source::CellChoice, session::WorkspaceKind,
+    source::live::SourceState, state::State,
 };
 use simulate::{PartKind, PartModel, Side};
 
@@ -862,7 +859,7 @@ fn one_more_reference_needs_no_title_and_is_unsaved_work_without_one() {
     capture(&mut harness, PartKind::Grille, Side::Right);
     press(&mut harness, "One more reference of: No other part");
     press(&mut harness, "Reference of: Wing");
-    act(&mut harness, Action::Make(Effect::Close));
+    act(&mut harness, Action::Close);
     harness.get_by_label("The part in Enrol is not saved");
     press(&mut harness, "Keep the window open");
     pass_time(&mut harness);

@@ -8,7 +8,6 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use inspection::{pipeline::Recipe, rack::RackFile};
 use shell::{
     action::{Action, DialogRequest},
-    message::Message,
     rack::RackAction,
     roles::RoleAction,
     session::WorkspaceKind,
@@ -262,7 +261,7 @@ fn what_the_recipe_expects_counts_until_parts_are_chosen() {
         recipe.segment.max_parts = 3;
         recipe.expect = vec![expect.into()];
         act_in(harness, |_: &mut InspectWorkspace, cx| {
-            cx.send(Message::UseRecipe(Arc::new(recipe.into())));
+            cx.send(Action::UseRecipe(Arc::new(recipe.into())));
         });
     };
     use_recipe(&mut harness, "grille");

@@ -23,9 +23,9 @@ use records::history::{
     History, HungId, KeepFrames, NewEntry, Retention, RobotMarks, SceneTitle, StoredVerdict,
 };
 use shell::{
-    action::{Action, Effect},
-    inspection::{source::CellChoice, unit_system::UnitSystem},
-    message::Message,
+    action::Action,
+    inspection::source::CellChoice,
+    language::UnitSystem,
     roles::RoleAction,
     session::{ThemeChoice, WorkspaceKind},
 };
@@ -320,9 +320,9 @@ fn another_recipe_while_the_part_hangs_there_is_no_other_part_and_what_differs_i
     let mut recipe = Recipe::default();
     recipe.accept.min_score = 1.0;
     act_in(&mut harness, |_: &mut HistoryWorkspace, cx| {
-        cx.send(Message::UseRecipe(Arc::new(recipe.into())));
+        cx.send(Action::UseRecipe(Arc::new(recipe.into())));
         let title = "Inspecting with another recipe";
-        cx.send(Message::InspectShown {
+        cx.send(Action::InspectShown {
             title: title.into(),
         });
     });
@@ -349,7 +349,7 @@ fn another_recipe_while_the_part_hangs_there_is_no_other_part_and_what_differs_i
     act_in_history(&mut harness, HistoryAction::Open(1));
     act_in(&mut harness, |_: &mut HistoryWorkspace, cx| {
         let title = "Inspecting with another recipe";
-        cx.send(Message::InspectShown {
+        cx.send(Action::InspectShown {
             title: title.into(),
         });
     });
@@ -462,7 +462,7 @@ fn inspections_that_cannot_be_written_are_marked_and_the_window_asks_before_it_c
     fs::write(&taken, "a file").expect("written");
     let mut harness = open_with(SMALL, keeping(&taken));
     press(&mut harness, "Dismiss");
-    act(&mut harness, Action::Make(Effect::Close));
+    act(&mut harness, Action::Close);
     harness.get_by_label("Close without saving?");
     harness.get_by_label("1 inspection is kept in memory only: the history cannot be written");
     press(&mut harness, "Keep the window open");
@@ -470,7 +470,7 @@ fn inspections_that_cannot_be_written_are_marked_and_the_window_asks_before_it_c
     harness.get_by_label("Not recorded");
     drop(harness);
     let mut harness = open_with(SMALL, keeping(&folder.path().join("kept")));
-    act(&mut harness, Action::Make(Effect::Close));
+    act(&mut harness, Action::Close);
     assert!(harness.query_by_label("Close without saving?").is_none());
     act(&mut harness, Action::Role(RoleAction::Switch));
     assert!(harness.query_by_label("Not recorded").is_none());

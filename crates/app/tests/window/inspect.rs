@@ -9,7 +9,7 @@ use files::save_cloud;
 use inspection::pipeline::{Rejection, Unwatched, Verdict};
 use robot::Convention;
 use shell::{
-    action::{Action, Effect},
+    action::Action,
     cell::RobotAction,
     inspection::{
         camera::Camera,
@@ -17,8 +17,8 @@ use shell::{
         inspected::{InspectRequest, inspect_all},
         library_cache::LibraryCache,
         source::{CellChoice, SceneSource},
-        unit_system::UnitSystem,
     },
+    language::UnitSystem,
     notice::Notice,
     session::{ThemeChoice, WorkspaceKind},
 };
@@ -219,10 +219,7 @@ fn the_pose_is_shown_in_the_robots_numbers_that_were_chosen() {
     let folder = tempfile::tempdir().expect("a folder");
     let cell = folder.path().join("cell.toml");
     save_calibration(&cell);
-    act(
-        &mut harness,
-        Action::Make(Effect::Robot(RobotAction::Load(cell))),
-    );
+    act(&mut harness, Action::Robot(RobotAction::Load(cell)));
     harness.get_by_label_contains("The robot's base frame, by Cell 2");
     harness.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::C);
     harness.run_steps(4);

@@ -15,7 +15,7 @@ use egui::{
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use records::history::{Retention, StoredVerdict};
 use shell::{
-    action::{Action, Effect},
+    action::Action,
     cell::{CheckAction, RobotAction, RobotPage},
     rack::RackAction,
     roles::RoleAction,
@@ -374,7 +374,7 @@ fn arrange(harness: &mut WindowHarness, scenery: Scenery) {
         }
         Scenery::Operator => act(harness, Action::Role(RoleAction::Switch)),
         Scenery::Help => act(harness, Action::ToggleHelp),
-        Scenery::Robot => act(harness, Action::Make(Effect::Robot(RobotAction::Toggle))),
+        Scenery::Robot => act(harness, Action::Robot(RobotAction::Toggle)),
         Scenery::RealRobot => {
             go(harness, WorkspaceKind::Servo);
             press(harness, "KUKA");
@@ -519,20 +519,17 @@ fn in_every_language_the_check_of_the_cell_fits_where_it_does_in_english() {
             ..plain_options()
         };
         let mut harness = open_with(SMALL, options);
-        act(
-            &mut harness,
-            Action::Make(Effect::Robot(RobotAction::Toggle)),
-        );
+        act(&mut harness, Action::Robot(RobotAction::Toggle));
         let mut dialog = harness.state().robot().dialog().expect("open").clone();
         dialog.page = RobotPage::Check;
         let turned = RobotAction::Edit(Box::new(dialog));
-        act(&mut harness, Action::Make(Effect::Robot(turned)));
+        act(&mut harness, Action::Robot(turned));
         if !harness.state().robot().checks().content().has_baseline {
             let take = RobotAction::Check(CheckAction::TakeBaseline);
-            act(&mut harness, Action::Make(Effect::Robot(take)));
+            act(&mut harness, Action::Robot(take));
         }
         let check = RobotAction::Check(CheckAction::Check);
-        act(&mut harness, Action::Make(Effect::Robot(check)));
+        act(&mut harness, Action::Robot(check));
         assert!(harness.state().robot().checks().latest().is_some());
         misfits(&harness)
     };
@@ -547,16 +544,13 @@ fn in_every_language_the_check_of_the_cell_fits_where_it_does_in_english() {
 fn in_every_language_the_page_of_robots_that_ask_fits_where_it_does_in_english() {
     let shown = |language: Language| {
         let mut harness = open_in(language, SMALL);
-        act(
-            &mut harness,
-            Action::Make(Effect::Robot(RobotAction::Toggle)),
-        );
+        act(&mut harness, Action::Robot(RobotAction::Toggle));
         let mut dialog = harness.state().robot().dialog().expect("open").clone();
         dialog.page = RobotPage::Answer;
         // Show the warning about the address, and the one about the missing calibration.
         dialog.address = "0.0.0.0:30100".into();
         let turned = RobotAction::Edit(Box::new(dialog));
-        act(&mut harness, Action::Make(Effect::Robot(turned)));
+        act(&mut harness, Action::Robot(turned));
         misfits(&harness)
     };
     let usual = shown(Language::English);

@@ -15,7 +15,7 @@ use files::save_cloud;
 use inspection::pipeline::Rejection;
 use records::history::{Retention, StoredVerdict};
 use shell::{
-    action::{Action, Effect},
+    action::Action,
     cell::{AnswerSetup, RobotAction},
     inspection::source::CellChoice,
     notice::Notice,
@@ -782,10 +782,9 @@ fn open_answering(cell: Option<PathBuf>) -> (WindowHarness, Sender<Step>) {
         at: "ascii=0".parse().expect("any free port"),
         ..AnswerSetup::default()
     };
-    harness.state_mut().act(
-        Action::Make(Effect::Robot(RobotAction::Answer(setup))),
-        &context,
-    );
+    harness
+        .state_mut()
+        .act(Action::Robot(RobotAction::Answer(setup)), &context);
     // Live has started with it.
     sees(&mut harness, &wire, [0.0; 2]);
     harness

@@ -12,7 +12,7 @@ use egui_kittest::{Node, kittest::Queryable as _};
 use geometry::rigid::from_euler_zyx;
 use inspection::library::{LibraryFolder, SprayPath};
 use shell::{
-    action::{Action, Effect},
+    action::Action,
     cell::{ProgramSetup, RobotAction},
     session::WorkspaceKind,
 };
@@ -220,10 +220,7 @@ fn an_arm_is_chosen_its_reach_shown_and_the_program_exported() {
     harness.get_by_label_contains("Calibrate the cell first");
     let cell = folder.path().join("cell.toml");
     robot::save_calibration(&cell);
-    act(
-        &mut harness,
-        Action::Make(Effect::Robot(RobotAction::Load(cell))),
-    );
+    act(&mut harness, Action::Robot(RobotAction::Load(cell)));
     press(&mut harness, "Arm: No arm");
     press(&mut harness, "ABB IRB 4600-40/2.55");
     // Below the field for it, above everything else.
@@ -291,10 +288,7 @@ fn the_base_of_the_arm_is_entered_a_better_one_applied_and_both_are_undone() {
     let cell = folder.path().join("cell.toml");
     let robot_from_camera = from_euler_zyx([-FRAC_PI_2, 0.0, -FRAC_PI_2, 0.0, 0.0, 1.2]);
     robot::save_calibration_of(&cell, robot_from_camera);
-    act(
-        &mut harness,
-        Action::Make(Effect::Robot(RobotAction::Load(cell))),
-    );
+    act(&mut harness, Action::Robot(RobotAction::Load(cell)));
     let set_up = |harness: &mut WindowHarness, nozzle: &str| {
         let setup = ProgramSetup {
             arm: Some("irb4600".into()),

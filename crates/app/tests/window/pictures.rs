@@ -27,7 +27,7 @@ use inspection::{
     pipeline::{Timings, Unwatched},
 };
 use shell::{
-    action::{Action, Effect},
+    action::Action,
     cell::{RobotAction, RobotPage},
     inspection::{
         camera::Camera,
@@ -482,7 +482,7 @@ fn the_robots_cell_looks_as_it_did() {
     let mut harness = open_drawn(USUAL);
     act(
         &mut harness,
-        Action::Make(Effect::Robot(RobotAction::Pairs(pairs.clone()))),
+        Action::Robot(RobotAction::Pairs(pairs.clone())),
     );
     compare(&mut harness, "robot_pairs");
 
@@ -504,10 +504,7 @@ fn the_robots_cell_looks_as_it_did() {
         if is_light {
             act(&mut harness, Action::SwitchTheme);
         }
-        act(
-            &mut harness,
-            Action::Make(Effect::Robot(RobotAction::Load(cell.clone()))),
-        );
+        act(&mut harness, Action::Robot(RobotAction::Load(cell.clone())));
         if !is_light {
             // From the top the rays can be told apart.
             press(&mut harness, "Top");
@@ -515,27 +512,18 @@ fn the_robots_cell_looks_as_it_did() {
         compare(&mut harness, name);
     }
     let mut harness = open_drawn(SMALL);
-    act(
-        &mut harness,
-        Action::Make(Effect::Robot(RobotAction::Load(cell))),
-    );
-    act(
-        &mut harness,
-        Action::Make(Effect::Robot(RobotAction::Toggle)),
-    );
+    act(&mut harness, Action::Robot(RobotAction::Load(cell)));
+    act(&mut harness, Action::Robot(RobotAction::Toggle));
     let mut dialog = harness.state().robot().dialog().expect("open").clone();
     dialog.page = RobotPage::Answer;
     let turned = RobotAction::Edit(Box::new(dialog));
-    act(&mut harness, Action::Make(Effect::Robot(turned)));
+    act(&mut harness, Action::Robot(turned));
     compare(&mut harness, "robot_answers");
     let turns: Vec<[f64; 3]> = (0..6).map(|i| [0.0, 0.0, 0.3 * f64::from(i)]).collect();
     std::fs::write(&pairs, robot::pairs(&turns)).expect("written");
     let mut harness = open_drawn(SMALL);
     act(&mut harness, Action::SwitchTheme);
-    act(
-        &mut harness,
-        Action::Make(Effect::Robot(RobotAction::Pairs(pairs))),
-    );
+    act(&mut harness, Action::Robot(RobotAction::Pairs(pairs)));
     compare(&mut harness, "robot_doubts_small_light");
 }
 

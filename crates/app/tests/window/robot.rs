@@ -20,7 +20,7 @@ use robot::{
     calibration::{CameraPlace, CellCalibration, Origin},
 };
 use shell::{
-    action::{Action, Effect},
+    action::Action,
     cell::{ProgramSetup, RobotAction, RobotPage},
     session::{RememberedCell, ThemeChoice, WorkspaceKind},
     state::State,
@@ -152,10 +152,7 @@ fn pairs_are_calculated_shown_corrected_and_used() {
     });
     fs::write(&file, text.collect::<String>()).expect("written");
     let mut harness = open_with(USUAL, own(folder.path()));
-    act(
-        &mut harness,
-        Action::Make(Effect::Robot(RobotAction::Pairs(file))),
-    );
+    act(&mut harness, Action::Robot(RobotAction::Pairs(file)));
     harness.get_by_label_contains("p4 (line 6) is suspect");
     press(&mut harness, "p4 (line 6)");
     assert!(harness.query_by_label_contains("is suspect").is_none());
@@ -181,24 +178,18 @@ fn pairs_that_do_not_span_are_used_only_by_insisting() {
     let mut harness = open_with(USUAL, own(folder.path()));
     act(
         &mut harness,
-        Action::Make(Effect::Robot(RobotAction::Pairs(file.clone()))),
+        Action::Robot(RobotAction::Pairs(file.clone())),
     );
     harness.get_by_label_contains("Nearly all turns are about one axis");
     harness.get_by_label_contains("another axis by at least 30°");
-    act(
-        &mut harness,
-        Action::Make(Effect::Robot(RobotAction::UseSolved)),
-    );
+    act(&mut harness, Action::Robot(RobotAction::UseSolved));
     assert!(state(&harness).session.robot.is_none());
     press(&mut harness, "Use it anyway");
     press(&mut harness, "Use it");
     assert!(state(&harness).session.robot.is_some());
     // The error of a bad file is shown where it was chosen.
     fs::write(&file, "# robot: kuka\n1 2 3\n").expect("written");
-    act(
-        &mut harness,
-        Action::Make(Effect::Robot(RobotAction::Pairs(file))),
-    );
+    act(&mut harness, Action::Robot(RobotAction::Pairs(file)));
     harness.get_by_label_contains("line 2: 3 numbers, expected 22");
 }
 
@@ -297,7 +288,7 @@ fn a_dialog_that_grows_or_shrinks_is_in_its_place_at_once() {
         let mut dialog = harness.state().robot().dialog().expect("open").clone();
         dialog.page = page;
         let context = harness.ctx.clone();
-        let edit = Action::Make(Effect::Robot(RobotAction::Edit(Box::new(dialog))));
+        let edit = Action::Robot(RobotAction::Edit(Box::new(dialog)));
         harness.state_mut().act(edit, &context);
         harness.step();
         let ends = |harness: &WindowHarness| {
@@ -450,10 +441,7 @@ fn a_spray_path_is_stored_carried_shown_and_exported() {
     assert!(!out.exists());
     let cell = folder.path().join("cell.toml");
     save_calibration(&cell);
-    act(
-        &mut harness,
-        Action::Make(Effect::Robot(RobotAction::Load(cell))),
-    );
+    act(&mut harness, Action::Robot(RobotAction::Load(cell)));
     act(&mut harness, Action::UseConvention(Convention::Fanuc));
     choose_in_inspect(&mut harness, InspectFile::SprayPath, out.clone());
     let text = fs::read_to_string(&out).expect("written");

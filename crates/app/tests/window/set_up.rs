@@ -19,10 +19,9 @@ use egui::Vec2;
 use egui_kittest::{Harness, kittest::Queryable as _};
 use shell::{
     action::{Action, DialogRequest},
-    context::ShellContext,
     source::live::SourceState,
     state::State,
-    workspace::Workspace,
+    workspace::{ShellContext, Workspace},
 };
 
 /// A window without a screen.

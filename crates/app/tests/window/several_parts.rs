@@ -19,7 +19,7 @@ use inspection::{
     pipeline::Recipe,
 };
 use records::history::{HungId, StoredVerdict, Summary};
-use shell::{action::Action, message::Message, roles::RoleAction, session::Shown};
+use shell::{action::Action, roles::RoleAction, session::Shown};
 use simulate::{RackKind, RackSetup, rack_frame};
 
 use super::{
@@ -50,7 +50,7 @@ fn use_recipe(harness: &mut WindowHarness, min_score: f64) {
     recipe.segment.max_parts = 3;
     recipe.accept.min_score = min_score;
     act_in(harness, |_: &mut InspectWorkspace, cx| {
-        cx.send(Message::UseRecipe(Arc::new(recipe.into())));
+        cx.send(Action::UseRecipe(Arc::new(recipe.into())));
     });
 }
 
@@ -92,7 +92,7 @@ fn past(harness: &WindowHarness, verdict: StoredVerdict) -> Summary {
 fn inspect_again(harness: &mut WindowHarness) {
     act_in(harness, |_: &mut InspectWorkspace, cx| {
         let title = "Inspecting again".into();
-        cx.send(Message::InspectShown { title });
+        cx.send(Action::InspectShown { title });
     });
 }
 

@@ -20,7 +20,7 @@ use robot::scan_frames::{read_frames, with_poses};
 use serde_json::{Value, json};
 use shell::{
     action::Action,
-    inspection::{fuse::FusedShots, scan_figure::ShotFate},
+    inspection::scan::{FusedShots, ShotFate},
     session::{Source, WorkspaceKind},
     state::State,
 };

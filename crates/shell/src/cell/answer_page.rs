@@ -5,12 +5,14 @@ use jiff::{Timestamp, tz::TimeZone};
 
 use super::{
     answering::{AnsweringStatus, LastAnswer},
-    controls::{choice, error_row},
     setup::AnswerSetup,
     state::RobotCell,
 };
 use crate::{
-    cell::dialog_state::{RobotAction, RobotDialog, RobotQuestion},
+    cell::{
+        dialog::{choice, error_row},
+        dialog_state::{RobotAction, RobotDialog, RobotQuestion},
+    },
     session::Session,
 };
 use geometry::error::Advice as _;

@@ -15,10 +15,10 @@ use std::{
 use self::work::{AnswerInputs, AnswerRequest, answer};
 pub use self::work::{AnsweringStatus, LastAnswer};
 use crate::{
-    context::ShellContext,
-    message::Message,
+    action::Action,
     notice::{Notice, NoticeTopic},
     session::Session,
+    workspace::ShellContext,
 };
 use geometry::error::lock;
 use robot::RobotFrame;
@@ -173,7 +173,7 @@ impl Answering {
     /// Forgets the failure and removes its notice.
     fn forget_failure(&mut self, cx: &mut ShellContext<'_>) {
         if self.failed.take().is_some() {
-            cx.send(Message::RemoveNotices(NoticeTopic::Answering));
+            cx.send(Action::RemoveNotices(NoticeTopic::Answering));
         }
     }
 

@@ -5,12 +5,14 @@ use jiff::{Timestamp, Zoned, tz::TimeZone};
 
 use super::{
     cell_check::{CellChecks, CheckFolderContent, marked, no_baseline, shown_time},
-    controls::error_row,
     state::RobotCell,
 };
 use crate::{
-    cell::dialog_state::{CheckAction, RobotAction, RobotDialog, RobotFile, RobotQuestion},
-    inspection::unit_system::UnitSystem,
+    cell::{
+        dialog::error_row,
+        dialog_state::{CheckAction, RobotAction, RobotDialog, RobotFile, RobotQuestion},
+    },
+    language::UnitSystem,
     session::Session,
     source::source_menu,
 };

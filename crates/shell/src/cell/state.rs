@@ -5,12 +5,14 @@ use std::{path::PathBuf, sync::Arc};
 use super::{
     answering::Answering,
     cell_check::CellChecks,
-    dialog_state::{CheckAction, RobotAction, RobotDialog, RobotFile, RobotPage, RobotQuestion},
-    work::{self, CellInUse, RobotResult},
+    dialog_state::{
+        CellInUse, CheckAction, RobotAction, RobotDialog, RobotFile, RobotPage, RobotQuestion,
+        RobotResult, confirm_calibration, load_calibration, save_calibration, solve_pairs,
+    },
 };
 use crate::{
-    context::ShellContext, file_dialog::FileDialog, inspection::source::file_name,
-    message::Message, notice::Notice, session::RememberedCell,
+    action::Action, file_dialog::FileDialog, inspection::source::file_name, notice::Notice,
+    session::RememberedCell, workspace::ShellContext,
 };
 use robot::{
     calibration::{CalibrationFit, CameraPlace, CellCalibration, Origin},
@@ -144,7 +146,7 @@ impl RobotCell {
             RobotAction::Confirm => self.confirm(),
             RobotAction::Forget => {
                 self.in_use = None;
-                cx.send(Message::UseCalibration(RememberedCell::Forgotten, None));
+                cx.send(Action::UseCalibration(RememberedCell::Forgotten, None));
                 let what = text!("robot-forgotten");
                 cx.notify(Notice::done(what));
             }
@@ -154,7 +156,7 @@ impl RobotCell {
                     dialog.problem = started.err();
                 }
             }
-            RobotAction::Answer(setup) => cx.send(Message::UseAnswering(setup)),
+            RobotAction::Answer(setup) => cx.send(Action::UseAnswering(setup)),
         }
     }
 
@@ -186,12 +188,12 @@ impl RobotCell {
     }
 
     fn load(&mut self, path: PathBuf) {
-        let job = |_: &_| Ok(work::load(path, None)?);
+        let job = |_: &_| Ok(load_calibration(path, None)?);
         self.task.start(text!("robot-opening"), job);
     }
 
     fn save(&mut self, path: PathBuf, calibration: CellCalibration) {
-        let job = move |_: &_| Ok(work::save(path, &calibration)?);
+        let job = move |_: &_| Ok(save_calibration(path, &calibration)?);
         self.task.start(text!("robot-saving"), job);
     }
 
@@ -205,7 +207,7 @@ impl RobotCell {
             (!is_confirmed && in_use.is_edited).then_some(RobotQuestion::ConfirmEdited);
         if is_confirmed && in_use.is_edited {
             let path = in_use.path.clone();
-            let job = |_: &_| Ok(work::confirm(path)?);
+            let job = |_: &_| Ok(confirm_calibration(path)?);
             self.task.start(text!("robot-saving"), job);
         }
     }
@@ -254,7 +256,7 @@ impl RobotCell {
             dialog.problem = None;
             dialog.solved = None;
             let (mount, left_out) = (dialog.mount, dialog.left_out.clone());
-            let job = move |_: &_| Ok(work::solve_pairs(pairs, mount, left_out)?);
+            let job = move |_: &_| Ok(solve_pairs(pairs, mount, left_out)?);
             self.task.start(text!("robot-calculating"), job);
         }
     }
@@ -318,7 +320,7 @@ impl RobotCell {
                 } else {
                     RememberedCell::File(in_use.path.clone())
                 };
-                cx.send(Message::UseCalibration(cell, in_use.frame()));
+                cx.send(Action::UseCalibration(cell, in_use.frame()));
                 let is_edited = in_use.is_edited;
                 self.in_use = Some(in_use);
                 match &mut self.dialog {
@@ -348,7 +350,7 @@ mod tests {
     use jiff::Timestamp;
 
     use super::*;
-    use crate::context::TestShell;
+    use crate::workspace::TestShell;
     use geometry::rigid::{RigidTransform, from_euler_zyx};
     use robot::{Convention, hand_eye::Mount};
 
@@ -389,8 +391,8 @@ mod tests {
 
         /// Applies the calibrations that were sent.
         fn deliver(&mut self) {
-            for message in std::mem::take(&mut self.shell.messages) {
-                if let Message::UseCalibration(cell, robot) = message {
+            for message in std::mem::take(&mut self.shell.sent) {
+                if let Action::UseCalibration(cell, robot) = message {
                     self.shell.session.cell = cell;
                     self.shell.session.robot = robot;
                 }
@@ -489,10 +491,10 @@ mod tests {
             .apply(RobotAction::Load(path.clone()), &mut bench.shell.context());
         assert!(bench.robot.task.run_waiting());
         bench.robot.update(&mut bench.shell.context());
-        let notified = bench.shell.messages.iter().any(
-            |message| matches!(message, Message::Notify(notice) if notice.what == edited().what),
+        let notified = bench.shell.sent.iter().any(
+            |message| matches!(message, Action::Notify(notice) if notice.what == edited().what),
         );
-        assert!(notified, "{:?}", bench.shell.messages);
+        assert!(notified, "{:?}", bench.shell.sent);
         bench.deliver();
         assert!(bench.shell.session.robot.is_none() && bench.robot.in_use.is_some());
         bench.apply(RobotAction::Toggle);

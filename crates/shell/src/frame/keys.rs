@@ -3,9 +3,8 @@
 use egui::{Event, Id, Key, KeyboardShortcut, Modifiers, RichText, ScrollArea, vec2};
 
 use crate::{
-    action::{Action, DialogRequest, Effect},
+    action::{self, Action, DialogRequest},
     cell::RobotAction,
-    message,
     roles::{self, RoleAction},
     session::WorkspaceKind,
     source::live::LiveAction,
@@ -27,12 +26,12 @@ const SHORTCUTS: [Shortcut<Action>; 13] = [
     // Before Ctrl O, which would match it too.
     Shortcut::new(CTRL_SHIFT, Key::O, || text!("shell-does-open-scan"), || Action::Ask(DialogRequest::Scan)),
     Shortcut::new(Modifiers::COMMAND, Key::O, || text!("shell-open-scene"), || Action::Ask(DialogRequest::Scene)),
-    Shortcut::new(Modifiers::COMMAND, Key::E, || text!("shell-does-export"), || Action::Make(Effect::Tell(message::Event::Export))),
-    Shortcut::new(Modifiers::NONE, Key::B, || text!("shell-does-robot"), || Action::Make(Effect::Robot(RobotAction::Toggle))),
+    Shortcut::new(Modifiers::COMMAND, Key::E, || text!("shell-does-export"), || Action::Tell(action::Event::Export)),
+    Shortcut::new(Modifiers::NONE, Key::B, || text!("shell-does-robot"), || Action::Robot(RobotAction::Toggle)),
     Shortcut::new(Modifiers::NONE, Key::U, || text!("shell-does-units"), || Action::SwitchUnits),
     Shortcut::new(Modifiers::NONE, Key::T, || text!("shell-does-theme"), || Action::SwitchTheme),
     Shortcut::new(Modifiers::COMMAND, Key::K, || text!("shell-does-role"), || Action::Role(RoleAction::Switch)),
-    Shortcut::new(Modifiers::COMMAND, Key::Q, || text!("shell-does-quit"), || Action::Make(Effect::Close)),
+    Shortcut::new(Modifiers::COMMAND, Key::Q, || text!("shell-does-quit"), || Action::Close),
     Shortcut::new(Modifiers::NONE, Key::F1, || text!("shell-does-help"), || Action::ToggleHelp),
     Shortcut::new(Modifiers::NONE, Key::Escape, || text!("shell-does-escape"), || Action::CloseTop),
 ];
@@ -125,7 +124,7 @@ pub fn shortcuts(
     let is_pressing = !space_is_free && ctx.memory(|memory| memory.focused().is_some());
     let workspace = state.session.workspace;
     let own = own.iter().copied().enumerate();
-    let own = own.map(|(index, binding)| (binding, Action::Make(Effect::Press(workspace, index))));
+    let own = own.map(|(index, binding)| (binding, Action::Press(workspace, index)));
     let named = SHORTCUTS
         .iter()
         .map(|shortcut| (shortcut.binding, (shortcut.action)()));

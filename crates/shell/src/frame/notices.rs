@@ -1,4 +1,7 @@
-//! The notices over the view of the workspace, where they cover no control; nothing moves when they come and go. The operator's
+//! What lies over the workspaces: the notices, the question before the window closes with unsaved data or while it answers robots,
+//! and what the window's own file dialogs ask for.
+//!
+//! Notices lie over the view of the workspace, where they cover no control; nothing moves when they come and go. The operator's
 //! view shows the newest two.
 
 use egui::{
@@ -7,15 +10,16 @@ use egui::{
 };
 
 use crate::{
-    action::{Action, Effect},
-    message::Event,
+    action::{Action, DialogRequest, Event},
+    file_dialog::{FileChoice, FileFilter, FileRequest, all_files, points},
     notice::{Notice, NoticeKind},
-    state::State,
+    state::{Closing, State},
 };
+use files::SCENE_ENDINGS;
 use ui::{
     language::text,
     theme::{ROUNDING, Theme, space},
-    widgets::{Mark, line_mark, sentence, text_button},
+    widgets::{self, Mark, line_mark, sentence, text_button},
 };
 
 /// Margin around the notices and between them, logical pixels.
@@ -154,7 +158,7 @@ fn line(ui: &mut Ui, index: usize, notice: &Notice, with_all: bool, actions: &mu
             if let NoticeKind::Undoable(by) = notice.kind
                 && text_button(ui, &text!("shell-undo")).clicked()
             {
-                actions.push(Action::Make(Effect::Tell(Event::Undo(by))));
+                actions.push(Action::Tell(Event::Undo(by)));
             }
             let words = Layout::left_to_right(Align::Center).with_main_wrap(true);
             ui.with_layout(words, |ui| {
@@ -208,5 +212,80 @@ fn expire(ctx: &Context, place: Rect, notices: &[Notice], actions: &mut Vec<Acti
         } else {
             ctx.request_repaint_after_secs(left as f32);
         }
+    }
+}
+
+/// Returns the request for a choice.
+pub fn request(ask: DialogRequest) -> FileRequest {
+    let (title, choice): (_, FileChoice) = match ask {
+        DialogRequest::Scene => (text!("shell-open-scene"), FileChoice::File),
+        DialogRequest::Scan => (text!("shell-scan-folder"), FileChoice::Folder),
+        DialogRequest::Library => (text!("shell-another-library"), FileChoice::Folder),
+        DialogRequest::Recording => (text!("shell-a-recording"), FileChoice::Folder),
+        DialogRequest::RecordTo => (text!("shell-record-to"), FileChoice::FolderToWrite),
+        DialogRequest::WatchedFolder => (text!("shell-watched-folder"), FileChoice::Folder),
+        DialogRequest::Part => (text!("shell-open-part"), FileChoice::File),
+        DialogRequest::Rack => (text!("shell-open"), FileChoice::File),
+        DialogRequest::SaveRack => (
+            text!("shell-save-as"),
+            FileChoice::NewFile("rack.toml".into()),
+        ),
+        DialogRequest::Orders => (text!("expect-table"), FileChoice::File),
+    };
+    FileRequest {
+        title,
+        filters: filters(ask),
+        choice,
+    }
+}
+
+fn filters(ask: DialogRequest) -> Vec<FileFilter> {
+    match ask {
+        DialogRequest::Scene => vec![(text!("shell-captured-scenes"), SCENE_ENDINGS), all_files()],
+        DialogRequest::Part => vec![points(), all_files()],
+        DialogRequest::Rack | DialogRequest::SaveRack => {
+            vec![(text!("rack-files"), &["toml"]), all_files()]
+        }
+        DialogRequest::Orders => vec![(text!("shell-csv-files"), &["csv"]), all_files()],
+        DialogRequest::Scan
+        | DialogRequest::Library
+        | DialogRequest::Recording
+        | DialogRequest::RecordTo
+        | DialogRequest::WatchedFolder => Vec::new(),
+    }
+}
+
+/// Draws the question while it is open.
+pub fn closing(ctx: &Context, state: &State, actions: &mut Vec<Action>) {
+    let Closing::Asked { what, is_unsaved } = &state.closing else {
+        return;
+    };
+    let (question, close) = if *is_unsaved {
+        (
+            text!("shell-close-without-saving"),
+            text!("shell-close-anyway"),
+        )
+    } else {
+        (
+            text!("shell-stop-answering"),
+            text!("shell-close-and-stop-answering"),
+        )
+    };
+    let modal = widgets::dialog(ctx, "closing", |ui| {
+        ui.set_max_width(420.0);
+        ui.heading(question);
+        ui.weak(what);
+        ui.add_space(space::MEDIUM);
+        ui.horizontal(|ui| {
+            if widgets::default_button(ui, &text!("shell-keep-open"), true) {
+                actions.push(Action::StayOpen);
+            }
+            if text_button(ui, &close).clicked() {
+                actions.push(Action::CloseAnyway);
+            }
+        });
+    });
+    if modal.should_close() {
+        actions.push(Action::StayOpen);
     }
 }

@@ -1,18 +1,20 @@
-//! The camera in use, shared between threads; at most one is open.
+//! The camera in use and the recording in progress, shared between threads; at most one camera is open.
 //!
 //! A continuous source is closed as soon as nobody uses its frames. A recording or a watched folder stays open between
-//! requests: each request gets the next frame of the recording, and the newest file of the folder that came since.
+//! requests: each request gets the next frame of the recording, and the newest file of the folder that came since. What is being
+//! recorded continues when another source is followed.
 
 use std::{
     collections::BTreeMap,
     fmt,
+    path::{Path, PathBuf},
     sync::{Arc, Mutex, MutexGuard},
     time::{Duration, Instant},
 };
 
 use capture::{
     self, BackpressurePolicy, CaptureError, Captured, DepthSource, Feed, FeedItem, FeedState,
-    SourceSpec,
+    FeedStatus, Recorder, SourceSpec,
 };
 use geometry::error::{Advice, lock};
 use stages::{field_of_view::FieldOfView, scene::SceneCloud};
@@ -237,11 +239,86 @@ impl fmt::Debug for Camera {
     }
 }
 
+/// The recording in progress, if any; clones share it.
+#[derive(Clone, Debug, Default)]
+pub struct SharedRecording(Arc<Mutex<Option<OpenRecording>>>);
+
+#[derive(Debug)]
+struct OpenRecording {
+    /// The folder that the user chose; the recording is a folder inside it.
+    parent: PathBuf,
+    recorder: Recorder,
+}
+
+/// What was recorded so far.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Recorded {
+    /// Folder of the recording.
+    pub folder: PathBuf,
+    /// Number of frames.
+    pub num_frames: u64,
+    /// Size of the frames, bytes.
+    pub num_bytes: u64,
+}
+
+impl SharedRecording {
+    /// Writes the frame into a recording in `parent`, starting one if necessary; without `parent`, ends the recording.
+    pub fn write(
+        &self,
+        parent: Option<&Path>,
+        captured: &Captured,
+        spec: &SourceSpec,
+        feed: &FeedStatus,
+    ) -> Result<Option<Recorded>, CaptureError> {
+        let mut recording = self.lock();
+        let Some(parent) = parent else {
+            *recording = None;
+            return Ok(None);
+        };
+        // An error ends the recording.
+        let mut open = match recording.take() {
+            Some(open) if open.parent == parent => open,
+            _ => {
+                let title = feed.title.clone().unwrap_or_else(|| spec.title());
+                let (folder, source) = (parent.join(name()), spec.to_string());
+                OpenRecording {
+                    parent: parent.to_owned(),
+                    recorder: Recorder::create(&folder, &title, &source, captured.is_simulated)?,
+                }
+            }
+        };
+        open.recorder.write(captured)?;
+        let recorded = Recorded {
+            folder: open.recorder.folder().to_owned(),
+            num_frames: open.recorder.num_frames(),
+            num_bytes: open.recorder.num_bytes(),
+        };
+        *recording = Some(open);
+        Ok(Some(recorded))
+    }
+
+    /// Ends the recording, which is complete after every frame.
+    pub fn end(&self) {
+        *self.lock() = None;
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Option<OpenRecording>> {
+        // Sound after a panic: the content is only ever replaced as a whole.
+        lock(&self.0)
+    }
+}
+
+/// Returns a folder name that sorts by time and is unique.
+fn name() -> String {
+    let now = geometry::clock::zoned_now();
+    now.strftime("recording %Y-%m-%d %H.%M.%S.%3f").to_string()
+}
+
 #[cfg(test)]
 mod tests {
+    use super::*;
     use nalgebra::Point3;
 
-    use super::*;
     use capture::{WatchedFrom, WatchedSpec};
     use files::save_cloud;
     use geometry::{

@@ -12,12 +12,13 @@ use nalgebra::Point3;
 
 use super::{
     figures::StageFigures,
-    fuse::{FuseError, FusedShots, Steps, Then, fuse},
     library_cache::{LibraryCache, LibraryView},
-    scan_choice::{ScanOrder, ScanRequest},
-    scan_figure::marked,
     scene_figure::{SceneFigure, SceneFigureInput, deviations, deviations_at},
     source::{Captured, Origin, SceneOrScan, SceneSource},
+};
+use crate::inspection::{
+    scan::{FuseError, FusedShots, Steps, Then, fuse, marked},
+    source::{ScanOrder, ScanRequest},
 };
 use capture::CaptureWarning;
 use geometry::{cloud::PointCloud, rigid::RigidTransform};

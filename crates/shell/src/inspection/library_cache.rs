@@ -10,23 +10,24 @@ use std::{
 
 use image::RgbaImage;
 
-use super::{
-    camera::Camera,
-    fitted::PreparedLibraryCache,
+use crate::inspection::{
+    camera::{Camera, SharedRecording},
     folder_watch::{self, entries},
-    recording::SharedRecording,
 };
 use geometry::error::{Advice as _, lock};
-use inspection::library::{
-    Library, LibraryError, LibraryFolder, LibraryLoad, LibraryPlace, PartMeta, PartName,
-    PartNumbers, SprayPath, TakenVersion, open_library,
+use inspection::{
+    library::{
+        Library, LibraryError, LibraryFolder, LibraryLoad, LibraryPlace, PartMeta, PartName,
+        PartNumbers, SprayPath, TakenVersion, open_library,
+    },
+    pipeline::{ProgressObserver, Recipe},
 };
 use records::history::HistoryBuffer;
 use robot::{
     RobotFrame,
     spray::{OffThePart, off_the_part},
 };
-use stages::reference::ReferenceParams;
+use stages::reference::{Reference, ReferenceParams};
 use ui::{
     language::{advised, text},
     user_error::UserError,
@@ -61,11 +62,11 @@ pub struct LoadedLibrary {
     /// Where it is stored; `None` if it could not be loaded.
     pub place: Option<LibraryPlace>,
     /// The references, prepared with the default parameters.
-    pub library: Library,
+    pub library: Arc<Library>,
     /// The view of it for the window.
     pub shown: Arc<LibraryView>,
-    /// The references prepared for another recipe.
-    pub fitted: PreparedLibraryCache,
+    /// The references prepared last with other parameters.
+    fitted: Mutex<Option<(ReferenceParams, Arc<Library>)>>,
     /// The entries of its folder before it was loaded; none without a folder, or if one was still young.
     entries: Vec<folder_watch::Entry>,
 }
@@ -86,6 +87,40 @@ impl LoadedLibrary {
                 advice: text!("shell-inside-program-advice"),
             })
         })
+    }
+
+    /// Returns the references prepared with the recipe's parameters. Takes as long as loading the library unless the
+    /// parameters are the default or those of the last call; `None` if cancelled.
+    pub fn fitting(&self, recipe: &Recipe, watch: &dyn ProgressObserver) -> Option<Arc<Library>> {
+        let params = recipe.reference_params();
+        if params == ReferenceParams::default() {
+            return Some(Arc::clone(&self.library));
+        }
+        let lock = || lock(&self.fitted);
+        if let Some((known, library)) = &*lock()
+            && *known == params
+        {
+            return Some(Arc::clone(library));
+        }
+        let num = self.library.references.len();
+        let references = self.library.references.iter().zip(&self.shown.parts);
+        let references = references.map(|(loaded, meta)| {
+            if watch.is_cancelled() {
+                return None;
+            }
+            // Without an outline at these parameters it keeps the one it was loaded with, and its index.
+            let cloud = Arc::clone(&loaded.cloud);
+            let prepared = Reference::prepare(&loaded.name, cloud, meta.coverage, &params);
+            Some(prepared.map_or_else(
+                |_| loaded.clone(),
+                |prepared| prepared.with_cut(loaded.cut).for_library_of(num),
+            ))
+        });
+        let library = Arc::new(Library {
+            references: references.collect::<Option<_>>()?,
+        });
+        *lock() = Some((params, Arc::clone(&library)));
+        Some(library)
     }
 }
 
@@ -351,9 +386,9 @@ impl Choice {
         };
         let loaded = Arc::new(LoadedLibrary {
             place: None,
-            library: Library::default(),
+            library: Arc::default(),
             shown: Arc::new(shown),
-            fitted: PreparedLibraryCache::default(),
+            fitted: Mutex::default(),
             entries: Vec::new(),
         });
         self.loaded = Some(Arc::clone(&loaded));
@@ -450,9 +485,9 @@ fn load(
     });
     Ok(LoadedLibrary {
         place: Some(place),
-        library,
+        library: Arc::new(library),
         shown,
-        fitted: PreparedLibraryCache::default(),
+        fitted: Mutex::default(),
         entries: entries.unwrap_or_default(),
     })
 }
@@ -491,13 +526,15 @@ fn no_library(folder: &LibraryFolder) -> Option<UserError> {
 
 #[cfg(test)]
 mod tests {
+    use super::*;
     use std::{
         fs::File,
         time::{Duration, SystemTime},
     };
 
-    use super::*;
     use ::inspection::fixtures::copy_library;
+
+    use inspection::pipeline::Unwatched;
 
     #[test]
     fn a_library_that_cannot_be_loaded_leaves_the_old_one_in_use() {
@@ -589,5 +626,35 @@ mod tests {
         let above = shipped.canonicalize().expect("there");
         let advice = &part[0].advice;
         assert!(advice.contains(&above.display().to_string()), "{advice}");
+    }
+
+    struct CancellableProgress;
+    impl ProgressObserver for CancellableProgress {
+        fn is_cancelled(&self) -> bool {
+            true
+        }
+    }
+
+    #[test]
+    fn references_have_as_many_rays_as_the_recipe_gives_scenes() {
+        let loaded = LibraryCache::default().get();
+        let mut recipe = Recipe::default();
+        let as_loaded = loaded.fitting(&recipe, &Unwatched).expect("loaded");
+        assert!(Arc::ptr_eq(&as_loaded, &loaded.library));
+        recipe.signature.num_rays = 128;
+        let fitted = loaded.fitting(&recipe, &Unwatched).expect("prepared");
+        let names = |library: &Library| -> Vec<String> {
+            let references = library.references.iter();
+            references.map(|r| r.name.clone()).collect()
+        };
+        assert_eq!(names(&fitted), names(&as_loaded));
+        for view in fitted.references.iter().flat_map(|r| &r.views) {
+            assert_eq!(view.signature().rays.len(), 128);
+        }
+        let again = loaded.fitting(&recipe, &Unwatched).expect("known");
+        assert!(Arc::ptr_eq(&fitted, &again));
+
+        recipe.signature.num_rays = 64;
+        assert!(loaded.fitting(&recipe, &CancellableProgress).is_none());
     }
 }

@@ -10,7 +10,7 @@ use image::{DynamicImage, ImageFormat};
 use nalgebra::Point3;
 
 use super::{inspected::Inspected, source::Origin};
-use crate::language::robot::not_checked;
+use crate::language::not_checked;
 use files::{file_name, write_atomically};
 use inspection::pipeline::Inspection;
 use records::{

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use glam::Vec3;
 use nalgebra::{Isometry3, Point3};
 
-use super::scan_figure::ScanFigure;
+use crate::inspection::scan::ScanFigure;
 use geometry::{rigid::RigidTransform, units::Metres};
 use inspection::pipeline::Inspection;
 use robot::spray::{BandStatus, CarriedPath};

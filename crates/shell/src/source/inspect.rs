@@ -10,32 +10,33 @@ use super::{
     live,
 };
 use crate::{
-    action::Effect,
+    action::{Action, Event},
     inspection::{
         inspected::{InspectJob, Inspected},
         library_cache::{LibraryCache, LibraryView},
-        scan_choice::ScanOrder,
-        source::{Origin, SceneOrScan, SceneSource, file_name},
+        source::{Origin, ScanOrder, SceneOrScan, SceneSource, file_name},
     },
-    message::Event,
     notice::{Notice, NoticeTopic},
-    session::{Inspecting, ReinspectionPurpose, Shown, Source, UserRole, WorkspaceKind},
+    session::{
+        Inspecting, ReinspectionPurpose, RememberedCell, Shown, Source, UserRole, WorkspaceKind,
+    },
     state::{State, notify, remove_notices},
     trace::{current_trace::CurrentTrace, expecting},
 };
 use capture::SourceSpec;
 use inspection::pipeline::Expected;
 use records::history::{HungId, Traceability};
+use robot::RobotFrame;
 use stages::{rack::Rack, scene::EmptyCell};
 use ui::{language::text, user_error::UserError};
 
 impl State {
     /// Opens a file or a scan, which becomes the source unless it cannot be read, or is to be enrolled: then the result in front
     /// is still of the source.
-    pub fn open(&mut self, source: Source) -> Option<Effect> {
+    pub fn open(&mut self, source: Source) -> Option<Action> {
         if self.session.workspace == WorkspaceKind::Enrol {
             let (scene, title) = self.next_of(&source);
-            return Some(Effect::Take(scene, title));
+            return Some(Action::Take(scene, title));
         }
         if !expecting::may_inspect(self) {
             return None;
@@ -78,7 +79,7 @@ impl State {
 
     /// Takes a scene from the source, to be inspected, or to be enrolled if Enrol is in front. Capturing for inspection stops
     /// following the source.
-    pub fn capture(&mut self) -> Option<Effect> {
+    pub fn capture(&mut self) -> Option<Action> {
         let source = self.session.source.clone();
         let (source, title) = self.next_of(&source);
         if self.session.workspace == WorkspaceKind::Enrol {
@@ -95,7 +96,7 @@ impl State {
                 // Another part may hang there now.
                 live::outdate_shown(self);
             }
-            return Some(Effect::Take(source, title));
+            return Some(Action::Take(source, title));
         }
         if self.session.source.followed().is_some() && live::tell_if_lost(self) {
             // Live goes on trying.
@@ -184,6 +185,20 @@ impl State {
         task.start(title, move |context| {
             run(&job, part, &library_cache, context)
         });
+    }
+
+    /// Uses this calibration of the robot's cell. If the rack is moved by it, inspects the scene in front again.
+    pub(crate) fn use_calibration(&mut self, cell: RememberedCell, robot: Option<Arc<RobotFrame>>) {
+        self.inspector.library_cache.use_robot(robot.clone());
+        let session = &mut self.session;
+        let before = session.rack.clone();
+        session.cell = cell;
+        session.robot = robot;
+        session.rack.follow(session.robot.as_deref());
+        let is_moved = session.rack.in_camera() != before.in_camera();
+        if is_moved && session.shown.is_some() {
+            self.inspect_again();
+        }
     }
 
     /// Cancels the running inspection. A file or a scan that was being opened does not become the source: the result in front is
@@ -352,11 +367,6 @@ impl State {
         };
         notify(self, taken);
         live::restart_consensus(self);
-    }
-
-    /// Loads the library, independently of the workspace in front and of the first scene.
-    pub fn load_library(&mut self) {
-        self.inspector.loader.load();
     }
 
     /// Uses this library, and reports its problems once.
@@ -600,10 +610,7 @@ fn update_library(state: &mut State) {
 mod tests {
     use super::*;
     use crate::inspection::{inspected::inspected_cell, source::CellChoice};
-    use crate::{
-        action::{Action, DialogRequest},
-        apply::apply,
-    };
+    use crate::{action::DialogRequest, apply::apply};
     use files::write_depth_png;
     use geometry::{fixtures::small_frame, oriented_box::OrientedBox};
 
@@ -731,7 +738,7 @@ mod tests {
         let former = state.session.source.clone();
         apply(&mut state, Action::GoTo(WorkspaceKind::Enrol));
         let taken = apply(&mut state, Action::Open("door.pcd".into()));
-        let Some(Effect::Take(SceneOrScan::Scene(SceneSource::File(path)), _)) = taken else {
+        let Some(Action::Take(SceneOrScan::Scene(SceneSource::File(path)), _)) = taken else {
             panic!("{taken:?}");
         };
         assert!(path.ends_with("door.pcd"));

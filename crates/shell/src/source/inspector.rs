@@ -10,11 +10,10 @@ use super::live::{FollowedParts, assign_as_before};
 use crate::{
     inspection::{
         folder_watch::FolderWatch,
-        fuse::Steps,
         inspected::{InspectJob, Inspected, inspect_all, inspect_scan},
         library_cache::{LibraryCache, LibraryView},
-        scan_choice::ScanOrder,
-        source::Origin,
+        scan::Steps,
+        source::{Origin, ScanOrder},
     },
     session::{ReinspectionPurpose, Source},
     trace::current_trace::CurrentTrace,
@@ -251,7 +250,8 @@ impl LibraryLoader {
         self.loading.running().is_none() && self.reloading.running().is_none()
     }
 
-    pub(super) fn load(&mut self) {
+    /// Loads the library, independently of the workspace in front and of the first scene.
+    pub fn load(&mut self) {
         let library_cache = self.library_cache.clone();
         self.loading
             .start(text!("shell-loading-library"), move |_| {

@@ -11,7 +11,7 @@ use std::{
     sync::{Arc, Mutex},
 };
 
-use crate::{inspection::inspected::Inspected, language::results::inspection_title};
+use crate::{inspection::inspected::Inspected, language::inspection_title};
 use geometry::error::lock;
 use records::history::{HungId, Summary, TraceChange, Traceability};
 use ui::language::text;

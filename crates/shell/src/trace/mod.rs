@@ -2,7 +2,5 @@
 
 pub mod current_trace;
 pub mod entry;
-pub mod expect_menu;
 pub mod expecting;
 pub mod orders;
-pub mod scanner;

@@ -1,6 +1,6 @@
 //! The buttons that fit a view and turn it to a standard direction.
 
-use egui::{Button, RichText, Ui, Vec2};
+use egui::{Button, Rect, RichText, Ui, UiBuilder, Vec2, vec2};
 
 use super::camera::{FitRequest, StandardView, ViewCamera};
 use crate::{language::text, theme::space};
@@ -33,14 +33,21 @@ impl ViewDirection {
         camera.request_fit(FitRequest::Focus);
     }
 
-    /// Draws a button for each direction.
-    pub fn buttons(ui: &mut Ui, camera: &mut ViewCamera) {
-        for (text, direction) in Self::choices() {
-            let button = Button::new(RichText::new(text).small());
-            let button = button.min_size(Vec2::splat(space::TARGET));
-            if ui.add(button).clicked() {
-                direction.apply(camera);
-            }
-        }
+    /// Draws a button for each direction, in a row at the top of this view. Returns the place of the row.
+    pub fn buttons(ui: &mut Ui, view: Rect, camera: &mut ViewCamera) -> Rect {
+        let size = vec2(view.width() - 2.0 * space::SMALL, space::TARGET);
+        let bar = Rect::from_min_size(view.min + Vec2::splat(space::SMALL), size);
+        ui.scope_builder(UiBuilder::new().max_rect(bar), |ui| {
+            ui.horizontal(|ui| {
+                for (text, direction) in Self::choices() {
+                    let button = Button::new(RichText::new(text).small());
+                    let button = button.min_size(Vec2::splat(space::TARGET));
+                    if ui.add(button).clicked() {
+                        direction.apply(camera);
+                    }
+                }
+            });
+        });
+        bar
     }
 }

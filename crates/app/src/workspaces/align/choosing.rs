@@ -6,10 +6,10 @@ use egui::{
 };
 
 use super::{
-    action::{AlignAction, AlignFile},
     start::Start,
     state::{AlignState, Pairing},
 };
+use crate::workspaces::align::state::{AlignAction, AlignFile};
 use shell::{inspection::source::file_name, session::Session};
 use ui::{
     language::text,

@@ -7,7 +7,6 @@
 //! side      Table I, the true error                   table
 //! ```
 
-mod action;
 mod choosing;
 mod pair;
 mod playback;
@@ -24,19 +23,17 @@ mod work;
 use egui::{Key, Margin, Modifiers, Panel, Rect, Ui};
 
 pub use self::{
-    action::{AlignAction, AlignFile},
     pair::{Pair, PairSource},
     playback::MethodComparison,
     start::{CustomStart, Start},
-    state::{AlignResult, AlignState, Pairing},
+    state::{AlignAction, AlignFile, AlignResult, AlignState, Pairing},
     table::{TableCell, TableFigures, TableRow, TableShown},
     track::{MethodRun, Track},
 };
 use self::{side::SidePanel, views::LinkedViews};
 use shell::{
-    context::ShellContext,
     session::{Session, WorkspaceKind},
-    workspace::Workspace,
+    workspace::{ShellContext, Workspace},
 };
 pub use ui::scrubber::Playback;
 use ui::{

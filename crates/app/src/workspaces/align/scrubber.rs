@@ -2,7 +2,8 @@
 
 use egui::{Align, Color32, Id, Label, Layout, RichText, Sense, Ui, vec2};
 
-use super::{action::AlignAction, playback::MethodComparison, plot, state::AlignState};
+use super::{playback::MethodComparison, plot, state::AlignState};
+use crate::workspaces::align::state::AlignAction;
 use ui::{
     language::text,
     scrubber::{Playback, Scrubber, ScrubberInput},

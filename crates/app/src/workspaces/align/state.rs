@@ -1,9 +1,8 @@
-//! State of the workspace, and the actions that change it.
+//! State of the workspace, the actions that change it, and the files that it asks for.
 
 use std::{path::PathBuf, sync::Arc, time::Duration};
 
-use super::{
-    action::{AlignAction, AlignFile},
+use crate::workspaces::align::{
     pair::{Pair, PairSource},
     playback::MethodComparison,
     start::{CustomStart, Start},
@@ -13,8 +12,12 @@ use super::{
 };
 use inspection::pipeline::Verdict;
 use shell::{
-    context::ShellContext, file_dialog::FileDialog, inspection::source::file_name,
-    message::Message, notice::Notice, session::Session,
+    action::Action,
+    file_dialog::{FileChoice, FileDialog, FileRequest, all_files, points},
+    inspection::source::file_name,
+    notice::Notice,
+    session::Session,
+    workspace::ShellContext,
 };
 use ui::{
     language::text,
@@ -258,7 +261,7 @@ impl AlignState {
             AlignAction::CopyTable => {
                 let text = table::text(&self.table.rows, '\t');
                 cx.notify(Notice::done(text!("align-copied")));
-                cx.send(Message::CopyText(text));
+                cx.send(Action::CopyText(text));
             }
         }
     }
@@ -361,6 +364,77 @@ fn recognised(session: &Session) -> Option<String> {
     match &inspection.verdict {
         Verdict::Part { .. } => inspection.reference().map(str::to_owned),
         Verdict::NoPart(_) => None,
+    }
+}
+
+/// Something that happened in the workspace.
+#[derive(Debug)]
+pub enum AlignAction {
+    /// Choose what is aligned to what.
+    Choose(Pairing),
+    /// Choose this enrolled part.
+    ChoosePart(String),
+    /// Choose the start.
+    ChooseStart(Start),
+    /// Choose the next random start.
+    DrawStart,
+    /// Open or close the form for a custom start.
+    ToggleCustom,
+    /// Replace the text of the custom start.
+    WriteCustom(String),
+    /// Choose the custom start.
+    UseCustom,
+    /// Ask for a file.
+    Ask(AlignFile),
+    /// A file was chosen.
+    Chosen(AlignFile, PathBuf),
+    /// Align.
+    Run,
+    /// Cancel the running job.
+    Cancel,
+    /// Continue Table I.
+    RunTable,
+    /// Compute Table I from its first row.
+    RestartTable,
+    /// Choose part and start of this row of Table I, and align.
+    OpenRow(usize),
+    /// Show this iteration.
+    Scrub(f32),
+    /// Move by this many iterations; negative is backwards.
+    Step(f32),
+    /// Play or pause.
+    TogglePlay,
+    /// Advance playback by this many seconds.
+    Advance(f32),
+    /// Copy Table I to the clipboard.
+    CopyTable,
+}
+
+/// A file that a person is asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AlignFile {
+    /// The file that is moved onto the target.
+    Source,
+    /// The file that the source is moved onto.
+    Target,
+    /// The file that Table I is written to.
+    TableFile,
+}
+
+impl AlignFile {
+    fn request(self) -> FileRequest {
+        match self {
+            Self::Source | Self::Target => FileRequest {
+                title: text!("align-open-title"),
+                filters: vec![points(), all_files()],
+                choice: FileChoice::File,
+            },
+            Self::TableFile => FileRequest {
+                title: text!("align-export-title"),
+                filters: vec![(text!("shell-csv-files"), &["csv"])],
+                choice: FileChoice::NewFile("table1.csv".into()),
+            },
+        }
     }
 }
 

@@ -3,12 +3,9 @@
 use egui::{Button, RichText, Ui, WidgetInfo};
 
 use super::{CompareAction, CompareState, Front, Undo, study::CaseStudy};
+use crate::shared::{truth_entries, truth_title};
 use records::cases::{CaseOutcome, Truth};
-use shell::{
-    session::Session,
-    standing::verdict_mark,
-    truth_menu::{truth_entries, truth_title},
-};
+use shell::session::{Session, verdict_mark};
 use ui::{
     language::{keys, text},
     theme::{Theme, font, space},

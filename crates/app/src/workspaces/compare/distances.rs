@@ -3,7 +3,7 @@
 use egui::{Align2, Rect, RichText, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2};
 
 use super::{CompareAction, CompareState, study::PartDistance};
-use shell::{inspection::unit_system::UnitSystem, session::Session};
+use shell::{language::UnitSystem, session::Session};
 use stages::rank::Matcher;
 use ui::{
     language::text,

@@ -1,4 +1,5 @@
-//! The kept cases: a list before the first run, then the confusion matrix with its plots, or the cases of one cell.
+//! The kept cases: a list before the first run, then the confusion matrix with its plots, the cases of one cell, or the changes
+//! since an earlier run.
 
 use std::f32::consts::FRAC_PI_2;
 
@@ -7,12 +8,12 @@ use egui::{
     Ui, Vec2, WidgetInfo, epaint::TextShape, pos2, vec2,
 };
 
-use super::{
-    CaseRun, CompareAction, CompareFile, CompareState, changes_list,
+use crate::workspaces::compare::{
+    CaseRun, CompareAction, CompareFile, CompareState, RunChanges,
     matrix::{Matrix, MatrixCell, column_title, row_title},
     score_plots,
 };
-use records::cases::{CaseAnswer, CaseOutcome, KeptCase};
+use records::cases::{CaseAnswer, CaseChange, CaseOutcome, FoundVerdict, KeptCase};
 use shell::{inspection::library_cache::LibraryView, session::Session};
 use ui::{
     language::{described, text},
@@ -61,7 +62,7 @@ pub(super) fn ui(
         return;
     };
     if let (Some(changes), Some(shown)) = (&compare.changes, &session.library) {
-        changes_list::ui(ui, changes, shown, acts);
+        changes_list(ui, changes, shown, acts);
         return;
     }
     ScrollArea::both()
@@ -282,7 +283,7 @@ fn difficulty_words(difficulty: Option<&str>) -> String {
     difficulty.map_or_else(String::new, |words| format!(" · {words}"))
 }
 
-pub(super) fn case_row(ui: &mut Ui, name: &str, what: &str, acts: &mut Vec<CompareAction>) {
+fn case_row(ui: &mut Ui, name: &str, what: &str, acts: &mut Vec<CompareAction>) {
     ui.horizontal(|ui| {
         let text = RichText::new(shortened(name, 34)).font(font::body_strong());
         let size = vec2(190.0, space::TARGET);
@@ -390,4 +391,86 @@ fn matrix(ui: &mut Ui, matrix: &Matrix, shown: &LibraryView, acts: &mut Vec<Comp
 fn rect_of(origin: egui::Pos2, [row, column]: [usize; 2], size: Vec2) -> Rect {
     let min = origin + vec2(size.x * column as f32, size.y * row as f32);
     Rect::from_min_size(min, size).shrink(1.0)
+}
+
+fn changes_list(
+    ui: &mut Ui,
+    changes: &RunChanges,
+    shown: &LibraryView,
+    acts: &mut Vec<CompareAction>,
+) {
+    let theme = Theme::of(ui);
+    let RunChanges { file, changes } = changes;
+    ui.horizontal_wrapped(|ui| {
+        let worse = match changes.regressions.len() {
+            0 => theme.accepted,
+            _ => theme.rejected,
+        };
+        let num_worse = text!("compare-num-worse", count = changes.regressions.len());
+        let worse = RichText::new(num_worse).color(worse);
+        ui.label(worse.font(font::body_strong()));
+        let mut rest = vec![
+            text!("compare-num-better", count = changes.mends.len()),
+            text!("compare-num-rescored", count = changes.rescored.len()),
+            text!("compare-num-common", count = changes.num_common),
+        ];
+        if !changes.added.is_empty() {
+            rest.push(text!("compare-num-new", count = changes.added.len()));
+        }
+        if !changes.gone.is_empty() {
+            rest.push(text!("compare-num-gone", count = changes.gone.len()));
+        }
+        rest.push(text!("compare-against-file", file = file));
+        ui.label(format!("· {}", rest.join(" · ")));
+    });
+    let rows: Vec<(String, &CaseChange)> = [
+        (text!("compare-worse"), &changes.regressions),
+        (text!("compare-better"), &changes.mends),
+        (text!("history-figure-score"), &changes.rescored),
+    ]
+    .into_iter()
+    .flat_map(|(word, list)| list.iter().map(move |change| (word.clone(), change)))
+    .collect();
+    if rows.is_empty() {
+        ui.weak(text!("compare-no-changes"));
+    }
+    ScrollArea::vertical()
+        .id_salt("changes")
+        .auto_shrink(false)
+        .show(ui, |ui| {
+            for (word, change) in rows {
+                case_row(ui, &change.name, &words(&word, change, shown), acts);
+            }
+        });
+}
+
+/// Describes a change briefly: a row fits about sixty characters.
+fn words(word: &str, change: &CaseChange, shown: &LibraryView) -> String {
+    let found = |found: &FoundVerdict| match (&found.part, found.score) {
+        (Some(part), Some(score)) => format!("{} {score:.2}", shown.title_of(part)),
+        _ => text!("compare-nothing"),
+    };
+    let before = found(&change.before);
+    let now = match change.now.score {
+        Some(score) if change.before.part == change.now.part => format!("{score:.2}"),
+        _ => found(&change.now),
+    };
+    let [was, is] = change.judgements.map(|outcome| described(&outcome));
+    if was == is {
+        text!(
+            "compare-change-same",
+            change = word,
+            before = before,
+            now = now
+        )
+    } else {
+        text!(
+            "compare-change",
+            change = word,
+            is = is,
+            was = was,
+            before = before,
+            now = now,
+        )
+    }
 }

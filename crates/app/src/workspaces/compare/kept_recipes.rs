@@ -14,7 +14,7 @@ use inspection::{
         RecipeLabel, RecipeList, Replace, built_in_recipe,
     },
 };
-use shell::{context::ShellContext, inspection::folder_watch::FolderWatch, settings::set_aside};
+use shell::{inspection::folder_watch::FolderWatch, settings::set_aside, workspace::ShellContext};
 use ui::{
     language::text,
     task::{Task, TaskRunner},

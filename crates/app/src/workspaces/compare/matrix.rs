@@ -1,10 +1,11 @@
 //! The confusion matrix for drawing: counts and verdicts, computed once, and the titles of its rows and columns.
 
+use crate::shared::truth_title;
 use records::{
     cases::{CaseAnswer, CaseOutcome, Cell, Confusion, Tally, Truth},
     history::StoredVerdict,
 };
-use shell::{inspection::library_cache::LibraryView, truth_menu};
+use shell::inspection::library_cache::LibraryView;
 use ui::language::{described, text};
 
 /// The matrix, row by row.
@@ -70,7 +71,7 @@ impl Matrix {
 pub fn row_title(truth: &Truth, shown: &LibraryView) -> String {
     match truth {
         Truth::Nothing => text!("shell-empty-cell"),
-        Truth::Part(_) | Truth::NotEnrolled => truth_menu::truth_title(Some(truth), shown),
+        Truth::Part(_) | Truth::NotEnrolled => truth_title(Some(truth), shown),
     }
 }
 

@@ -5,10 +5,8 @@
 
 mod action;
 mod case_bar;
-mod changes_list;
 pub mod comparison;
 mod distances;
-mod keeping;
 mod kept_cases;
 mod kept_recipes;
 pub mod matrix;
@@ -22,7 +20,6 @@ mod schedule;
 mod score_plots;
 mod state;
 pub mod study;
-mod trial;
 mod work;
 
 use std::path::PathBuf;
@@ -36,9 +33,8 @@ pub use self::{
     work::{CaseDone, CaseEdit, CaseRun, CompareResult, RunChanges},
 };
 use shell::{
-    context::ShellContext,
     session::{Session, WorkspaceKind},
-    workspace::Workspace,
+    workspace::{ShellContext, Workspace},
 };
 use ui::{
     key_binding::{CTRL_SHIFT, KeyBinding, Shortcut},

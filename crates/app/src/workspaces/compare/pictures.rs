@@ -10,7 +10,7 @@ use super::{
     CompareState,
     comparison::{AxisQuantity, Correlated, Correlation, OutlineComparison},
 };
-use shell::{inspection::unit_system::UnitSystem, session::Session};
+use shell::{language::UnitSystem, session::Session};
 use stages::rank::Matcher;
 use ui::{
     language::text,

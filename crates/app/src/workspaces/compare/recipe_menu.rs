@@ -16,7 +16,7 @@ use inspection::{
     },
 };
 use shell::{
-    language::results::{recipe_label, recipe_name},
+    language::{recipe_label, recipe_name},
     session::Session,
 };
 use ui::{

@@ -1,8 +1,9 @@
 //! The recipe on trial: a control for every parameter of the table, and the verdict on the case in front.
 
-use egui::{Button, Color32, Frame, Margin, Panel, RichText, ScrollArea, Ui, WidgetInfo, vec2};
+use egui::{Button, Color32, Panel, RichText, ScrollArea, Ui, WidgetInfo, vec2};
 
 use super::{CompareAction, CompareState, case_bar, recipe_menu, scaling_plot};
+use crate::shared::panel_frame;
 use inspection::pipeline::{
     Recipe,
     parameters::{Group, PARAMETERS, Parameter, Place},
@@ -23,14 +24,7 @@ pub(super) fn ui(
     acts: &mut Vec<CompareAction>,
 ) {
     let theme = Theme::of(ui);
-    let frame = |top, bottom| {
-        Frame::new().fill(theme.panel).inner_margin(Margin {
-            left: 16,
-            right: 14,
-            top,
-            bottom,
-        })
-    };
+    let frame = |top, bottom| panel_frame(theme, top, bottom);
     Panel::bottom("recipe verdict")
         .resizable(false)
         .frame(frame(8, 12))

@@ -11,9 +11,9 @@ use super::{
 use inspection::pipeline::NamedRecipe;
 use records::cases::CaseFolder;
 use shell::{
-    context::ShellContext,
     notice::Notice,
     session::{Session, Shown, WorkspaceKind},
+    workspace::ShellContext,
 };
 use ui::{language::text, undo_stack::UndoDirection};
 

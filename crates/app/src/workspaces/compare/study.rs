@@ -8,8 +8,9 @@ use inspection::{
     pipeline::{Inspection, NamedRecipe, ProgressObserver, Verdict},
 };
 use records::cases::{CaseFolder, FoundVerdict, KeptCase, OneOfSeveral, Truth, inspect_case};
-use shell::inspection::{
-    inspected::Inspected, library_cache::LibraryCache, unit_system::UnitSystem,
+use shell::{
+    inspection::{inspected::Inspected, library_cache::LibraryCache},
+    language::UnitSystem,
 };
 use stages::{
     pose::PoseEstimate,

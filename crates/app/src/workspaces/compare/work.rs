@@ -8,13 +8,13 @@ use std::{
 use jiff::Timestamp;
 
 use super::{
-    keeping::keep_case,
     matrix::Matrix,
     scaling::{Scaling, ScalingError, ScalingRow, scaling, sizes},
     schedule::Job,
     state::Cases,
     study::CaseStudy,
 };
+use crate::workspaces::compare::state::keep_case;
 use files::file_name;
 use inspection::pipeline::NamedRecipe;
 use records::{

@@ -13,7 +13,7 @@ use super::{
 };
 use crate::shots::summary;
 use inspection::library::PartName;
-use shell::{language::results::painted_from, session::Session};
+use shell::{language::painted_from, session::Session};
 use stages::reference::Coverage;
 use ui::{
     language::{advised, described, keys, text, what_and_advice},

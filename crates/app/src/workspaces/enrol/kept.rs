@@ -269,15 +269,15 @@ mod tests {
 
     use super::*;
     use crate::workspaces::enrol::{
-        action::EnrolAction,
         draft::Field,
         outline::{DrawnOutline, DrawnOver},
         segments::PointAction,
         selection::{Edit, OutlineMode},
+        state::EnrolAction,
     };
     use shell::{
-        context::TestShell,
         inspection::source::{CellChoice, SceneOrScan, SceneSource},
+        workspace::TestShell,
     };
 
     fn outline(over: DrawnOver) -> DrawnOutline {

@@ -7,7 +7,6 @@
 //! change     a change of the library              undo, catalogue, card
 //! ```
 
-mod action;
 mod card;
 mod catalogue;
 pub mod change;
@@ -37,21 +36,17 @@ use egui::{
     vec2,
 };
 
-pub use self::{
-    action::{DraftPanes, EnrolAction, EnrolFile},
-    state::EnrolState,
-};
+pub use self::state::{DraftPanes, EnrolAction, EnrolFile, EnrolState};
 use self::{
     catalogue::Catalogue, draft::Draft, kept::DraftFile, picture::PicturePane,
     thumbnails::Thumbnails, view::DraftView,
 };
 use crate::shots::{ShotList, ShownShots, StripTab};
 use shell::{
-    context::ShellContext,
+    action::Event,
     inspection::source::SceneOrScan,
-    message::Event,
     session::{Session, WorkspaceKind},
-    workspace::Workspace,
+    workspace::{ShellContext, Workspace},
 };
 use ui::{
     key_binding::{CTRL_SHIFT, KeyBinding, Shortcut},

@@ -5,7 +5,7 @@ use std::{borrow::Cow, sync::Arc};
 use nalgebra::Point3;
 
 use geometry::cloud::PointCloud;
-use shell::inspection::fuse::FusedShots;
+use shell::inspection::scan::FusedShots;
 use stages::scan::{FusedCloud, Scan};
 
 /// A scan, and the points of it that can be kept.

@@ -15,7 +15,7 @@ use geometry::{cloud::PointCloud, mesh::TriangleMesh};
 use inspection::library::{EnrolError, EnrolParams};
 use shell::inspection::{
     camera::Camera,
-    fuse::FusedShots,
+    scan::FusedShots,
     source::{Origin, SceneError, SceneSource},
 };
 use stages::scene::{SceneCloud, scene_from_cloud, scene_from_frame};

@@ -6,7 +6,6 @@ use std::{
 };
 
 use super::{
-    action::{EnrolAction, EnrolFile},
     draft::{Draft, Field},
     kept::KeptDraft,
     selection::{Corrections, Selection},
@@ -15,15 +14,15 @@ use super::{
     undo::{UndoStep, scene_in_front},
     work,
 };
-use crate::shots::{Asked, ShotsAction, ShotsFile, source_of};
+use crate::{
+    shots::{Asked, ShotsAction, ShotsFile, source_of},
+    workspaces::enrol::state::{EnrolAction, EnrolFile},
+};
 use shell::{
-    context::ShellContext,
-    inspection::{
-        scan_choice::ScanOrder,
-        source::{Origin, SceneOrScan, SceneSource},
-    },
-    message::Message,
+    action::Action,
+    inspection::source::{Origin, ScanOrder, SceneOrScan, SceneSource},
     notice::{Notice, NoticeTopic},
+    workspace::ShellContext,
 };
 use ui::{language::text, user_error::UserError};
 
@@ -110,7 +109,7 @@ impl EnrolState {
         selection: Arc<Selection>,
         cx: &mut ShellContext<'_>,
     ) {
-        cx.send(Message::RemoveNotices(NoticeTopic::Scene));
+        cx.send(Action::RemoveNotices(NoticeTopic::Scene));
         for warning in &subject.warnings {
             cx.notify(match &subject.origin {
                 Origin::File { path, .. } => Notice::of_file(path, warning),
@@ -154,7 +153,7 @@ impl EnrolState {
         if let Some(files) = &files
             && let Some(source) = source_of(files, &cx.session.source)
         {
-            cx.send(Message::UseSource(source));
+            cx.send(Action::UseSource(source));
         }
         self.shots.settle(files.as_ref(), None);
         self.job = DraftJob::Look;

@@ -4,12 +4,12 @@ use egui::{RichText, ScrollArea, Ui};
 
 use super::{
     EnrolAction, EnrolState,
-    action::DraftPanes,
     draft::Draft,
     segments::PointAction,
     selection::{Edit, OutlineMode},
     subject::InitialSelection,
 };
+use crate::workspaces::enrol::state::DraftPanes;
 use ui::{
     language::text,
     tool_row::{Tool, choice, tool_row},

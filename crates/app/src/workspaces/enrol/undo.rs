@@ -13,16 +13,15 @@ use super::{
 };
 use inspection::library::PartName;
 use shell::{
-    context::ShellContext,
+    action::Action,
     inspection::{
         inspected::Inspected,
         library_cache::LibraryView,
-        scan_choice::{ScanOrder, ShotSet},
-        source::{SceneOrScan, SceneSource},
+        source::{ScanOrder, SceneOrScan, SceneSource, ShotSet},
     },
-    message::Message,
     notice::Notice,
     session::{Session, WorkspaceKind},
+    workspace::ShellContext,
 };
 use stages::scene::SceneCloud;
 use ui::{language::text, undo_stack::UndoDirection};
@@ -245,8 +244,8 @@ impl EnrolState {
             (Some(_), None) => self.open = None,
             (None, _) => {}
         }
-        cx.send(Message::LibraryChanged { library, saved });
-        cx.send(Message::WithdrawUndo);
+        cx.send(Action::LibraryChanged { library, saved });
+        cx.send(Action::WithdrawUndo(WorkspaceKind::Enrol));
         cx.notify(notice);
         self.look(cx);
     }
@@ -334,7 +333,7 @@ impl EnrolState {
             return;
         }
         while let Some(step) = self.steps.from(way).pop() {
-            cx.send(Message::WithdrawUndo);
+            cx.send(Action::WithdrawUndo(WorkspaceKind::Enrol));
             match step {
                 UndoStep::Library(step) => return self.start_change(Some(way), step, cx),
                 UndoStep::Draft(other) => {
@@ -367,7 +366,7 @@ impl EnrolState {
         if let Some((oldest, _)) = scans.nth(MAX_SCANS) {
             done.drain(..=oldest);
         }
-        cx.send(Message::WithdrawUndo);
+        cx.send(Action::WithdrawUndo(WorkspaceKind::Enrol));
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use egui::{Rect, Ui, UiBuilder, Vec2, vec2};
+use egui::{Rect, Ui, vec2};
 
 use super::{
     EnrolAction, EnrolState,
@@ -115,11 +115,7 @@ impl DraftView {
             let keys = overlay.colour_keys(&style.colours);
             colour_keys(&painter, corner, &keys, Theme::of(ui));
         }
-        let bar = vec2(rect.width() - 2.0 * space::SMALL, space::TARGET);
-        let bar = Rect::from_min_size(rect.min + Vec2::splat(space::SMALL), bar);
-        ui.scope_builder(UiBuilder::new().max_rect(bar), |ui| {
-            ui.horizontal(|ui| ViewDirection::buttons(ui, &mut self.camera));
-        });
+        let bar = ViewDirection::buttons(ui, rect, &mut self.camera);
         if let Some(shape) = shape {
             let painter = ui.painter_at(rect);
             let corners = self.viewport.drawing.corners(shape);

@@ -16,10 +16,9 @@ use inspection::{
     pipeline::{ProgressObserver as _, Recipe},
 };
 use shell::inspection::{
-    fuse::{Steps, Then, fuse},
     library_cache::LibraryCache,
-    scan_choice::{ScanOrder, ScanRequest},
-    source::SceneSource,
+    scan::{Steps, Then, fuse},
+    source::{ScanOrder, ScanRequest, SceneSource},
 };
 use stages::segment::SegmentedPart;
 use ui::{

@@ -4,19 +4,17 @@ use std::{path::PathBuf, sync::Arc};
 
 use super::{
     action::{Direction, HistoryAction, HistoryFile, HistoryJob},
-    export,
     state::HistoryState,
     statistics::StatisticsView,
-    work::HistoryResult,
+    work::{self, HistoryResult},
 };
 use records::history::{HistoryEvent, NewEntry, PruneResult, SetAside};
 use shell::{
-    action::Action,
-    context::ShellContext,
+    action::{Action, Event},
     inspection::{inspected::Inspected, source::file_name},
-    message::{Event, Message},
     notice::Notice,
     session::{ReinspectionPurpose, UserRole, WorkspaceKind},
+    workspace::ShellContext,
 };
 use ui::{language::text, user_error::UserError};
 
@@ -25,7 +23,7 @@ impl HistoryState {
     pub fn apply(&mut self, action: HistoryAction, cx: &mut ShellContext<'_>) {
         if action.needs_engineer() && cx.session.role == UserRole::Operator {
             self.held = Some(action);
-            cx.send(Message::AskEngineer);
+            cx.send(Action::EngineerIn(WorkspaceKind::History));
             return;
         }
         match action {
@@ -142,7 +140,7 @@ impl HistoryState {
                 if is_in_front && self.runs.is_some() {
                     self.show_runs(false, cx);
                 } else if is_in_front && cx.session.role == UserRole::Operator {
-                    cx.send(Message::Act(Action::GoTo(WorkspaceKind::Inspect)));
+                    cx.send(Action::GoTo(WorkspaceKind::Inspect));
                 }
             }
             Event::PosesWanted(_) | Event::Export | Event::Undo(_) => {}
@@ -266,9 +264,9 @@ impl HistoryState {
         let are_runs = self.runs.is_some();
         self.exporting.start(title, move |_| {
             let written = if are_runs {
-                export::write_runs(&filter, &path, &keeper)?
+                work::write_runs(&filter, &path, &keeper)?
             } else {
-                export::write(&filter, file, &path, &keeper)?
+                work::write_inspections(&filter, file, &path, &keeper)?
             };
             Ok(Notice::done(written))
         });

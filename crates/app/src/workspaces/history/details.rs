@@ -1,26 +1,39 @@
-//! The selected inspection: its verdict, its picture, and what can be done with it.
+//! The selected inspection: its verdict, its picture, its differences from another inspection of the part, the fields for its true
+//! label and for a remark, and what can be done with it.
 
 use std::sync::Arc;
 
-use egui::{Button, RichText, ScrollArea, Sense, TextureHandle, Ui, vec2};
+use egui::{Button, Grid, Label, RichText, ScrollArea, Sense, TextureHandle, Ui, WidgetInfo, vec2};
 
-use super::{
-    HistoryAction, HistoryState, OpenedInspection, differences, label,
-    list::{DAY_AND_TIME, local_time},
-};
-use records::history::{Differences, InspectionDetail, Record, StoredVerdict, Summary};
-use shell::{
-    inspection::unit_system::UnitSystem,
-    language::results::{
-        accepted_or_not, inspection_title, recipe_label, refusal_kind, scene_title, source_title,
+use crate::{
+    shared::{truth_entries, truth_title},
+    workspaces::history::{
+        HistoryAction, HistoryState, OpenedInspection,
+        list::{DAY_AND_TIME, local_time},
     },
-    session::Session,
-    standing::past_mark,
+};
+use inspection::{
+    library::Truth,
+    pipeline::{Recipe, parameters::Parameter},
+};
+use records::history::{
+    Differences, InspectionDetail, InspectionSummary, Record, StoredVerdict, Summary,
+};
+use shell::{
+    inspection::library_cache::LibraryView,
+    language::{
+        UnitSystem, accepted_or_not, inspection_title, recipe_label, refusal_kind, scene_title,
+        source_title,
+    },
+    session::{Session, past_mark},
 };
 use ui::{
-    language::{Language, advised, described, keys, text},
+    language::{Language, advised, described, keys, parameters, text},
     theme::{Theme, font, space},
-    widgets::{fitted, heading, labelled, line_mark, path_row, row, sentence, shortened, texture},
+    widgets::{
+        fitted, heading, labelled, line_edit, line_mark, path_row, row, sentence, shortened,
+        texture,
+    },
 };
 
 /// State of the details kept between frames.
@@ -28,7 +41,7 @@ use ui::{
 pub(super) struct Details {
     /// Picture of an inspection; true if it is the large one of an inspection kept whole in memory.
     picture: Option<(i64, bool, TextureHandle)>,
-    pub(super) remark: label::Remark,
+    pub(super) remark: Remark,
     /// Number of the part's inspection that was drawn last.
     drawn: Option<i64>,
 }
@@ -75,7 +88,7 @@ impl Details {
             let differences = history.differences.as_ref();
             let number = record.summary.number;
             if let Some((_, found)) = differences.filter(|(of, _)| *of == number) {
-                differences::today(ui, found, session.units);
+                differences_today(ui, found, session.units);
             }
             part(ui, past, session.units, actions);
             let title = text!("history-inspection", number = number.abs());
@@ -219,7 +232,7 @@ fn part(ui: &mut Ui, past: &OpenedInspection, units: UnitSystem, actions: &mut V
         text!("history-found-other", number = &names[1])
     };
     let names = [&*names[0], &*names[1]];
-    differences::table(ui, &found, (&sentence, is_same), names, units, theme);
+    table(ui, &found, (&sentence, is_same), names, units, theme);
 }
 
 fn figures(ui: &mut Ui, record: &Record) {
@@ -348,4 +361,200 @@ fn buttons(ui: &mut Ui, history: &HistoryState, record: &Record, actions: &mut V
     if let Some(why) = no_frame {
         ui.label(RichText::new(why).small().weak());
     }
+}
+
+/// Gap between two columns, logical pixels.
+const GAP: f32 = 10.0;
+
+/// Text of a finding in a row of the table.
+type FindingText<'a> = &'a dyn Fn(&InspectionSummary) -> String;
+
+/// Draws the differences from another inspection of the same scene made today.
+fn differences_today(ui: &mut Ui, found: &Differences, units: UnitSystem) {
+    let theme = Theme::of(ui);
+    heading(ui, &text!("history-differences"));
+    let is_same = found.has_same_outcome();
+    let sentence = if is_same {
+        text!("history-same-today")
+    } else {
+        text!("history-other-today")
+    };
+    let names = [text!("history-then"), text!("history-today")];
+    let names = [names[0].as_str(), names[1].as_str()];
+    table(ui, found, (&sentence, is_same), names, units, theme);
+}
+
+/// Draws the table, with the names of its columns, below a sentence that says whether the inspections are the same.
+pub(super) fn table(
+    ui: &mut Ui,
+    found: &Differences,
+    (sentence, is_same): (&str, bool),
+    names: [&str; 2],
+    units: UnitSystem,
+    theme: &Theme,
+) {
+    let strong = RichText::new(sentence).font(font::body_strong());
+    // Only another result is a warning: scores differ by noise, too.
+    let colour = if is_same { theme.text } else { theme.warning };
+    ui.label(strong.color(colour));
+    let Differences { before, now, pose } = found;
+    let none = || "-".to_owned();
+    let rows: [(String, FindingText<'_>); 5] = [
+        (text!("history-figure-verdict"), &|of| {
+            described(&of.verdict)
+        }),
+        (text!("history-figure-nearest"), &|of| {
+            of.nearest.clone().unwrap_or_else(none)
+        }),
+        (text!("history-figure-score"), &|of| {
+            of.score
+                .map_or_else(none, |[score, _]| format!("{score:.3}"))
+        }),
+        (text!("inspect-recipe"), &|of| of.recipe.clone()),
+        (text!("history-figure-library"), &|of| of.library.clone()),
+    ];
+    // The names of parts and recipes must not widen the panel.
+    let width = ((ui.available_width() - 2.0 * GAP) / 3.0).floor();
+    // Words wrap; a name is cut, and whole in its tooltip.
+    let cell = |ui: &mut Ui, text: RichText| {
+        let is_name = !text.text().contains(' ');
+        let label = Label::new(text);
+        ui.add(if is_name { label.truncate() } else { label });
+    };
+    Grid::new(("differences", names))
+        .num_columns(3)
+        .max_col_width(width)
+        .spacing(vec2(GAP, 2.0))
+        // Lines of text need less height than controls.
+        .min_row_height(22.0)
+        .show(ui, |ui| {
+            for title in ["", names[0], names[1]] {
+                ui.weak(title);
+            }
+            ui.end_row();
+            let both =
+                |(what, of): (String, FindingText<'_>)| (shortened(&what, 14), of(before), of(now));
+            let changed = found.changed_parameters().into_iter();
+            let parameters = changed.map(|change| {
+                let name = Parameter::<Recipe>::of_key(change.key).map(parameters::name);
+                let name = name.unwrap_or_else(|| change.name.to_owned());
+                (shortened(&name, 14), change.before, change.now)
+            });
+            for (what, then, today) in rows.into_iter().map(both).chain(parameters) {
+                // Bold as well as colour marks a change.
+                let text = RichText::new(&today);
+                let is_same = then == today;
+                ui.weak(what);
+                cell(ui, RichText::new(then));
+                let text = if is_same {
+                    text
+                } else {
+                    text.font(font::body_strong()).color(colour)
+                };
+                cell(ui, text);
+                ui.end_row();
+            }
+        });
+    if let Some(off) = pose {
+        let text = text!(
+            "history-pose-differs",
+            shift = units.length(off.shift.0),
+            rotation = units.angle(off.rotation.0),
+        );
+        let text = RichText::new(text);
+        let is_plain = is_same || found.has_same_pose();
+        ui.label(if is_plain { text } else { text.color(colour) });
+    }
+}
+
+/// The remark and the true label being edited.
+#[derive(Default)]
+pub(super) struct Remark {
+    /// The inspection, its stored remark, and the text being edited.
+    draft: Option<(i64, String, String)>,
+    /// The inspection for which the menu of true labels was opened, while it is open.
+    labelled: Option<i64>,
+}
+
+impl Remark {
+    /// Draws both; returns true while the remark or the label is being edited.
+    pub(super) fn ui(
+        &mut self,
+        ui: &mut Ui,
+        row: &Summary,
+        session: &Session,
+        actions: &mut Vec<HistoryAction>,
+    ) -> bool {
+        heading(ui, &text!("history-actual-part"));
+        let is_labelled = truth_menu(ui, row, &mut self.labelled, session, actions);
+        heading(ui, &text!("history-remark"));
+        // Start anew for another inspection, or if the stored remark was changed elsewhere.
+        let is_of_it = self
+            .draft
+            .as_ref()
+            .is_some_and(|(number, known, _)| *number == row.number && *known == row.remark);
+        if !is_of_it {
+            if let Some((number, remark)) = self.take_edited(Some(row.number)) {
+                actions.push(HistoryAction::Remark(number, remark));
+            }
+            self.draft = Some((row.number, row.remark.clone(), in_one_line(&row.remark)));
+        }
+        let Some((_, known, text)) = &mut self.draft else {
+            return is_labelled;
+        };
+        let field = line_edit(text, text!("shell-notes-hint"), f32::INFINITY);
+        let response = ui.add(field);
+        let label = text!("history-your-remark");
+        response.widget_info(|| WidgetInfo::labeled(egui::Role::TextInput, true, &label));
+        if response.lost_focus() && is_edited(text, known) {
+            // Until the stored remark comes back.
+            known.clone_from(text);
+            let remark = text.trim().to_owned();
+            actions.push(HistoryAction::Remark(row.number, remark));
+        }
+        is_labelled || response.has_focus()
+    }
+
+    /// Takes a remark that was edited before another inspection came to the front or the window closes.
+    pub(super) fn take_edited(&mut self, front: Option<i64>) -> Option<(i64, String)> {
+        let (number, known, text) = self.draft.take()?;
+        let is_edited = Some(number) != front && is_edited(&text, &known);
+        is_edited.then(|| (number, text.trim().to_owned()))
+    }
+}
+
+/// True if the text in the field is no longer that of the stored remark.
+fn is_edited(text: &str, known: &str) -> bool {
+    text.trim() != in_one_line(known).trim()
+}
+
+/// Returns a remark without line breaks, which commands may store: in one line they are drawn as boxes.
+pub(super) fn in_one_line(remark: &str) -> String {
+    remark.replace(char::is_control, " ")
+}
+
+/// Draws the menu of true labels; returns true while it is open. What is chosen in it is the label of the inspection for
+/// which it was opened.
+fn truth_menu(
+    ui: &mut Ui,
+    row: &Summary,
+    labelled: &mut Option<i64>,
+    session: &Session,
+    actions: &mut Vec<HistoryAction>,
+) -> bool {
+    let number = labelled.unwrap_or(row.number);
+    let unloaded = LibraryView::default();
+    let library = session.library.as_deref().unwrap_or(&unloaded);
+    let chosen = row.label.as_ref();
+    let title = shortened(&truth_title(chosen, library), 24);
+    let title = format!("{} · {title} ▼", text!("history-actual-part"));
+    let menu = ui.menu_button(&title, |ui| {
+        let first = [None, Some(Truth::NotEnrolled), Some(Truth::Nothing)];
+        truth_entries(ui, chosen, &first, library, |truth| {
+            actions.push(HistoryAction::Label(number, truth));
+        });
+    });
+    let is_open = menu.inner.is_some();
+    *labelled = is_open.then_some(number);
+    is_open || menu.response.clicked()
 }

@@ -6,7 +6,7 @@ use nalgebra::Point3;
 
 use geometry::statistics::lower_median;
 use records::history::PoseRecord;
-use shell::inspection::unit_system::UnitSystem;
+use shell::language::UnitSystem;
 use ui::{
     language::text,
     plot::over_time,

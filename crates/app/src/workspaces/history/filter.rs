@@ -3,7 +3,7 @@
 use jiff::{Span, Timestamp, Zoned, civil};
 
 use records::history::{Filter, StoredVerdict, VerdictFilter};
-use shell::language::results::{accepted_or_not, searched_texts};
+use shell::language::{accepted_or_not, searched_texts};
 use ui::{
     language::{described, text},
     widgets::sentence,

@@ -7,14 +7,13 @@ use egui::{
 };
 use jiff::{Timestamp, tz::TimeZone};
 
-use super::{HistoryAction, HistoryState, bar, label::in_one_line};
+use super::{HistoryAction, HistoryState, bar};
+use crate::{shared::truth_title, workspaces::history::details::in_one_line};
 use records::history::Summary;
 use shell::{
     inspection::library_cache::LibraryView,
-    language::results::{inspection_title, scene_title},
-    session::Session,
-    standing::past_mark,
-    truth_menu::truth_title,
+    language::{inspection_title, scene_title},
+    session::{Session, past_mark},
 };
 use ui::{
     language::{Language, described, text},

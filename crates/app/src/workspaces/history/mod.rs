@@ -4,12 +4,8 @@ mod action;
 mod apply;
 mod bar;
 mod details;
-mod differences;
 mod drift;
-mod export;
 mod filter;
-mod keeping;
-mod label;
 mod list;
 mod reopen;
 mod servo_runs;
@@ -32,11 +28,10 @@ use self::{details::Details, list::List};
 
 use records::history::{HistoryBuffer, Writer};
 use shell::{
-    context::ShellContext,
+    action::Event,
     inspection::folder_watch::FolderWatch,
-    message::Event,
     session::{Session, WorkspaceKind},
-    workspace::Workspace,
+    workspace::{ShellContext, Workspace},
 };
 use ui::{
     key_binding::{KeyBinding, Shortcut},
@@ -150,7 +145,7 @@ impl Workspace for HistoryWorkspace {
                     list.ui(ui, state, session, &mut actions);
                 }
             });
-        keeping::ui(ui.ctx(), state, &mut actions);
+        bar::retention_rule(ui.ctx(), state, &mut actions);
         for action in actions {
             self.apply(action, cx);
         }

@@ -9,16 +9,14 @@ use super::{
 use records::history::{Differences, InspectionSummary, Record};
 use shell::{
     action::Action,
-    context::ShellContext,
     inspection::{
         inspected::{InspectJob, InspectRequest, Inspected},
-        scan_choice::{ScanOrder, ScanRequest},
-        source::{HistoryFrame, Origin, SceneOrScan, SceneSource},
+        source::{HistoryFrame, Origin, ScanOrder, ScanRequest, SceneOrScan, SceneSource},
     },
-    language::results::scene_title,
-    message::Message,
+    language::scene_title,
     notice::Notice,
     session::{ReinspectionPurpose, WorkspaceKind},
+    workspace::ShellContext,
 };
 use ui::language::text;
 
@@ -26,7 +24,7 @@ impl HistoryState {
     /// Shows an inspection with every stage: from memory, or repeated with its own recipe.
     pub(super) fn open(&mut self, number: i64, cx: &mut ShellContext<'_>) {
         match self.whole(number) {
-            Some(inspected) => cx.send(Message::ShowPast(Arc::clone(inspected))),
+            Some(inspected) => cx.send(Action::ShowPast(Arc::clone(inspected))),
             None => self.reinspect(number, RemakeFor::Open, cx),
         }
     }
@@ -77,9 +75,9 @@ impl HistoryState {
             ));
         };
         if purpose == RemakeFor::Open {
-            cx.send(Message::Act(Action::GoTo(WorkspaceKind::Inspect)));
+            cx.send(Action::GoTo(WorkspaceKind::Inspect));
         }
-        cx.send(Message::Inspect {
+        cx.send(Action::Inspect {
             title,
             job: match source {
                 SceneOrScan::Scene(source) => InspectJob::Scene(InspectRequest { source, recipe }),

@@ -12,12 +12,11 @@ use super::{
     Direction, HistoryAction, HistoryState, RunsView,
     list::{DAY_AND_TIME, local_time},
 };
+use crate::shared::servo_curve;
 use records::history::{ServoRecord, ServoRun};
 use shell::{
-    context::ShellContext,
-    inspection::unit_system::UnitSystem,
-    language::robot::{end_title, shift_and_turn, target_title},
-    servo_curve,
+    language::{UnitSystem, end_title, shift_and_turn, target_title},
+    workspace::ShellContext,
 };
 use ui::{
     language::{advised, described, text},
@@ -180,7 +179,7 @@ pub(super) fn details(ui: &mut Ui, runs: &RunsView, units: UnitSystem) {
         }
         ui.add_space(space::SMALL);
         let tolerance = (run.tolerance_m, run.tolerance_rad);
-        servo_curve::ui(ui, curve, tolerance, CURVE_HEIGHT);
+        servo_curve(ui, curve, tolerance, CURVE_HEIGHT);
         let number = text!("servoing-run-number", number = run.number.abs());
         heading(ui, &number);
         ui.spacing_mut().interact_size.y = 22.0;

@@ -18,8 +18,8 @@ use super::{
 
 use records::history::{Differences, HungId, Page, Retention, Summary, Usage};
 use shell::{
-    context::ShellContext, file_dialog::FileDialog, inspection::inspected::Inspected,
-    notice::Notice,
+    file_dialog::FileDialog, inspection::inspected::Inspected, notice::Notice,
+    workspace::ShellContext,
 };
 use ui::{
     language::text,

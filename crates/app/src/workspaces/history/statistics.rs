@@ -12,8 +12,7 @@ use super::drift::{self, Drift};
 use inspection::pipeline::RefusalKind;
 use records::history::{PartOutcome, StoredVerdict};
 use shell::{
-    inspection::unit_system::UnitSystem,
-    language::results::refusal_kind,
+    language::{UnitSystem, refusal_kind},
     session::{ShiftStarts, Source},
     source::source_menu,
 };

@@ -5,12 +5,12 @@ use std::sync::Arc;
 use egui::Color32;
 
 use super::{
-    expectation::FrameExpectation,
     frame_parts::numbered,
     headline::{Headline, HeadlineState},
     hold::{Hold, inspect_current},
     operator_words::{in_short, next_step, why_not},
 };
+use crate::workspaces::inspect::frame_parts::FrameExpectation;
 use capture::SourceSpec;
 use inspection::pipeline::{Unrecognisable, Verdict};
 use records::history::StoredVerdict;

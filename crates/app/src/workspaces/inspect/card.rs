@@ -1,34 +1,40 @@
-//! The verdict card: which part, accepted or not, where, how certain, and what to do next.
+//! The verdict card: which part, accepted or not, where, how certain, the stand-off against its band, and what to do next.
 
 use egui::{
-    Align, Button, Frame, Label, Layout, Panel, Rect, RichText, ScrollArea, Sense, Ui, pos2,
-    style::ScrollStyle, vec2,
+    Align, Align2, Button, Frame, Label, Layout, Panel, Rect, RichText, ScrollArea, Sense, Ui,
+    pos2, style::ScrollStyle, vec2,
 };
 
-use super::{
-    action::{InspectAction, InspectFile},
-    frame_parts,
-    headline::{self, Headline, HeadlineState},
-    hold::{self, Hold},
-    robot_numbers, stand_off,
+use crate::{
+    shots::summary,
+    workspaces::inspect::{
+        frame_parts,
+        headline::{self, Headline, HeadlineState},
+        hold::{self, Hold},
+        robot_numbers,
+        state::{InspectAction, InspectFile},
+    },
 };
-use crate::shots::summary;
 use inspection::pipeline::{Rejection, Unrecognisable, Verdict};
+use robot::spray::{BandStatus, CarriedPath, MOST_TILT, SurfaceHit};
 use shell::{
-    action::{Action, Effect},
+    action::Action,
     cell::RobotAction,
-    inspection::{inspected::Inspected, unit_system::UnitSystem},
-    language::results::{recipe_label, traced},
-    session::{Session, UserRole},
-    source::live,
-    trace::{entry, expect_menu},
+    inspection::inspected::Inspected,
+    language::{UnitSystem, recipe_label, traced},
+    session::{Session, UserRole, WorkspaceKind},
+    source::live::{self, LiveAction},
+    trace::{entry, expecting},
 };
-use stages::pose::PoseEstimate;
+use stages::{
+    pose::PoseEstimate,
+    stand_off::{StandOff, StandOffParams},
+};
 use station::Doubt;
 use ui::{
     language::{described, text},
     theme::{ROUNDING, Theme, font, space},
-    widgets::{focus_ring, heading, row, sentence, shortened},
+    widgets::{Scale, focus_ring, heading, row, sentence, shortened},
 };
 
 /// Draws the card; with the stand-off of an assumed path only if its nozzle is shown.
@@ -56,7 +62,8 @@ pub(super) fn ui(
     }
     expecting(ui, session, actions);
     if session.is_live() && live::card(ui, session) {
-        actions.push(InspectAction::ToggleRecording);
+        let toggle = Action::Live(LiveAction::ToggleRecording);
+        actions.push(InspectAction::Act(toggle));
     }
     let inspection = &inspected.inspection;
     // Without the part's name, the figures of its pose are of no use.
@@ -109,7 +116,7 @@ pub(super) fn ui(
             }
             // The figures of a path that was never stored would look like a defect beside an accepted part.
             if shows_nozzle || inspected.spray.is_some() {
-                stand_off::ui(ui, inspected, session.units);
+                stand_off(ui, inspected, session.units);
             }
             robot_numbers::ui(ui, inspected, session, actions);
         }
@@ -126,7 +133,7 @@ pub(super) fn expecting(ui: &mut Ui, session: &Session, actions: &mut Vec<Inspec
         entry::fields_of_order(ui, session);
     }
     let mut of_shell = Vec::new();
-    expect_menu::ui(ui, session, &mut of_shell);
+    expecting::ui(ui, session, &mut of_shell);
     actions.extend(of_shell.into_iter().map(InspectAction::Act));
 }
 
@@ -137,7 +144,7 @@ fn next_step(
     headline: &Headline,
 ) -> Option<(String, InspectAction)> {
     let calibrate = || {
-        let open = Action::Make(Effect::Robot(RobotAction::Toggle));
+        let open = Action::Robot(RobotAction::Toggle);
         (text!("inspect-calibrate"), InspectAction::Act(open))
     };
     let enrol = || (text!("inspect-enrol-this"), InspectAction::Enrol);
@@ -188,7 +195,11 @@ fn action_buttons(
             text!("inspect-export-says"),
             InspectAction::Ask(InspectFile::Report),
         ),
-        (why, why_says, InspectAction::Compare),
+        (
+            why,
+            why_says,
+            InspectAction::Act(Action::GoTo(WorkspaceKind::Compare)),
+        ),
         (
             text!("inspect-copy-pose"),
             text!("inspect-copy-pose-says"),
@@ -431,6 +442,136 @@ fn footer(ui: &mut Ui, inspected: &Inspected, session: &Session) {
     if session.role == UserRole::Engineer {
         let label = recipe_label(&inspected.recipe.label);
         row(ui, &text!("inspect-recipe"), &shortened(&label, 28));
+    }
+}
+
+/// Draws the section; nothing without a stand-off.
+fn stand_off(ui: &mut Ui, inspected: &Inspected, units: UnitSystem) {
+    if let Some(path) = &inspected.spray {
+        heading(ui, &text!("inspect-stand-off-stored"));
+        return stored(ui, path, &inspected.recipe.stand_off, units);
+    }
+    let Some(found) = &inspected.stand_off else {
+        return;
+    };
+    heading(ui, &text!("inspect-stand-off"));
+    match found {
+        Ok(found) => figures(ui, found, &inspected.recipe.stand_off, units),
+        Err(error) => {
+            ui.weak(sentence(&described(error)));
+        }
+    }
+}
+
+/// Draws the figures of the stored path, which has the part's pose, at the points where the camera sees the part.
+fn stored(ui: &mut Ui, path: &CarriedPath, params: &StandOffParams, units: UnitSystem) {
+    let met: Vec<SurfaceHit> = path.points.iter().filter_map(|point| point.meets).collect();
+    let middle = f64::midpoint(params.nearest.0, params.farthest.0);
+    let error = |distance: &f64| (distance - middle).abs();
+    let distances = met.iter().map(|hit| hit.distance.0);
+    let Some(worst) = distances.max_by(|a, b| error(a).total_cmp(&error(b))) else {
+        ui.weak(text!("inspect-path-not-seen"));
+        return;
+    };
+    let mean = |of: fn(&SurfaceHit) -> f64| met.iter().map(of).sum::<f64>() / met.len() as f64;
+    distance_rows(ui, [mean(|hit| hit.distance.0), worst], params, units);
+    let inside = text!(
+        "inspect-points-in-band",
+        inside = path.num_inside(),
+        num = path.num_seen()
+    );
+    row(ui, &text!("inspect-in-band"), &inside);
+    let num_unseen = path.count(BandStatus::NotSeen);
+    if num_unseen > 0 {
+        let text = text!(
+            "inspect-points-not-seen",
+            count = num_unseen,
+            all = path.points.len()
+        );
+        ui.label(RichText::new(text).small().color(Theme::of(ui).warning));
+    }
+    let steepest = met.iter().map(|hit| hit.tilt.0).fold(0.0, f64::max);
+    angle_row(ui, [mean(|hit| hit.tilt.0), steepest], units);
+    let angle_counts = text!(
+        "inspect-angle-counts",
+        count = met.iter().filter(|hit| hit.tilt > MOST_TILT).count(),
+        limit = units.angle(MOST_TILT.0)
+    );
+    ui.label(RichText::new(angle_counts).small().weak());
+}
+
+fn distance_rows(ui: &mut Ui, [mean, worst]: [f64; 2], params: &StandOffParams, units: UnitSystem) {
+    bar(ui, [mean, worst], params, units);
+    let pair = text!(
+        "inspect-worst-of",
+        value = units.length(mean),
+        worst = units.length(worst)
+    );
+    row(ui, &text!("inspect-mean"), &pair);
+}
+
+fn angle_row(ui: &mut Ui, [mean, worst]: [f64; 2], units: UnitSystem) {
+    let pair = text!(
+        "inspect-worst-of",
+        value = units.angle(mean),
+        worst = units.angle(worst)
+    );
+    row(ui, &text!("inspect-angle"), &pair);
+}
+
+fn figures(ui: &mut Ui, found: &StandOff, params: &StandOffParams, units: UnitSystem) {
+    let distances = [found.mean.0, found.worst.distance.0];
+    distance_rows(ui, distances, params, units);
+    row(
+        ui,
+        &text!("inspect-in-band"),
+        &format!("{:.0} %", found.in_band * 100.0),
+    );
+    angle_row(ui, [found.mean_angle.0, found.worst_angle.0], units);
+    // Parts rarely hang as taught: that the path has to follow the pose is usual, and no fault of the part.
+    let text = if found.keeps_the_band() {
+        text!("inspect-path-fits")
+    } else {
+        text!("inspect-path-needs-pose")
+    };
+    ui.label(RichText::new(text).small().weak());
+}
+
+/// Draws a range of distances with the band in its middle third: a full tick for the mean, a short one for the worst.
+fn bar(ui: &mut Ui, [mean, worst]: [f64; 2], params: &StandOffParams, units: UnitSystem) {
+    const BAR: f32 = 14.0;
+    const NUMBERS: f32 = 15.0;
+    let theme = Theme::of(ui);
+    let (near, far) = (params.nearest.0 as f32, params.farthest.0 as f32);
+    let wide = (far - near).max(1e-3);
+    let size = vec2(ui.available_width(), BAR + space::SMALL + NUMBERS);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
+    let text = text!(
+        "inspect-stand-off-of",
+        mean = units.length(mean),
+        nearest = units.length(params.nearest.0),
+        farthest = units.length(params.farthest.0)
+    );
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &text));
+    let painter = ui.painter();
+    let bar = Rect::from_min_size(rect.min + vec2(0.0, 3.0), vec2(rect.width(), BAR));
+    let across = Scale::new([near - wide, far + wide], [bar.left(), bar.right()]);
+    painter.rect_filled(bar, ROUNDING, theme.track);
+    let band = Rect::from_x_y_ranges(across.at(near)..=across.at(far), bar.y_range());
+    painter.rect_filled(band, 0.0, theme.accepted.gamma_multiply(0.45));
+    // Clamp distances beyond the bar to its end.
+    let tick = |distance: f64, width: f32, over: f32, colour| {
+        let x = across.at(distance as f32);
+        let x = x.clamp(bar.left() + width, bar.right() - width);
+        let line = Rect::from_center_size(pos2(x, bar.center().y), vec2(width, BAR + over));
+        painter.rect_filled(line, 0.0, colour);
+    };
+    tick(worst, 2.0, -4.0, theme.weak_text);
+    tick(mean, 3.0, 5.0, theme.text);
+    for end in [near, far] {
+        let text = units.length(f64::from(end));
+        let at = pos2(across.at(end), bar.bottom() + 4.0);
+        painter.text(at, Align2::CENTER_TOP, text, font::small(), theme.weak_text);
     }
 }
 

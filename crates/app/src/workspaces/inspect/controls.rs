@@ -3,11 +3,11 @@
 use egui::{Button, Response, RichText, Ui, Vec2};
 
 use super::{
-    action::{InspectAction, InspectFile},
     hold::Hold,
     state::{InspectState, ViewPart},
     view::SceneView,
 };
+use crate::workspaces::inspect::state::{InspectAction, InspectFile};
 use shell::{inspection::inspected::Inspected, session::Session};
 use ui::{
     language::text,

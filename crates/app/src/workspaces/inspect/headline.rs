@@ -3,12 +3,10 @@
 use egui::{Color32, FontId, RichText, Ui};
 
 use super::hold::Hold;
+use crate::shared::truth_title;
 use inspection::pipeline::{Identification, Verdict, live::MotionState};
 use records::history::StoredVerdict;
-use shell::{
-    inspection::inspected::Inspected, language::results::accepted_or_not, session::Session,
-    truth_menu::truth_title,
-};
+use shell::{inspection::inspected::Inspected, language::accepted_or_not, session::Session};
 use station::Doubt;
 use texts::Described as _;
 use ui::{

@@ -1,10 +1,8 @@
 //! Inspect, the operator's workspace: the view, the verdict and the stages.
 
-mod action;
 mod banner;
 mod card;
 mod controls;
-mod expectation;
 mod frame_parts;
 mod headline;
 mod hold;
@@ -13,7 +11,6 @@ mod operator_words;
 mod plots;
 mod ranking;
 mod robot_numbers;
-mod stand_off;
 mod state;
 mod strip;
 #[cfg(test)]
@@ -26,18 +23,16 @@ use egui::{Align2, Frame, Key, Margin, Modifiers, Panel, Rect, TextureHandle, Ui
 
 use self::view::SceneView;
 pub use self::{
-    action::{InspectAction, InspectFile},
-    state::{InspectState, ViewPart},
+    state::{InspectAction, InspectFile, InspectState, ViewPart},
     view::WorkCounts,
 };
 use crate::shots::{ShotList, ShotsAction, ShotsFile, ShownShots, StripTab};
 use capture::SourceSpec;
 use shell::{
-    context::ShellContext,
-    inspection::{fuse::FusedShots, inspected::Inspected},
-    message::Event,
+    action::Event,
+    inspection::{inspected::Inspected, scan::FusedShots},
     session::{Session, Shown, WorkspaceKind},
-    workspace::Workspace,
+    workspace::{ShellContext, Workspace},
 };
 use ui::{
     key_binding::{CTRL_SHIFT, KeyBinding, Shortcut},

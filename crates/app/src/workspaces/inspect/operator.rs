@@ -8,27 +8,29 @@ use egui::{
 };
 
 use super::{
-    action::InspectAction,
     banner::{Banner, Tone},
     frame_parts, hold,
 };
+use crate::workspaces::inspect::state::InspectAction;
 use records::history::StoredVerdict;
 use shell::{
-    frame::operator_bars::column_width,
-    session::Session,
-    standing::past_mark,
-    trace::{entry, expect_menu},
+    session::{Session, past_mark},
+    trace::{entry, expecting},
 };
 use ui::{
     language::{Language, described, text},
     theme::{Theme, font, space},
-    widgets::{Mark, fitted_middle, line_mark, mark, title_rows, wrapped, wrapped_rows},
+    widgets::{
+        Mark, fitted_middle, line_mark, mark, side_panel, title_rows, wrapped, wrapped_rows,
+    },
 };
 
 /// Height of the banner in a high and in a low window, logical pixels.
 const BANNER: [f32; 2] = [190.0, 156.0];
 /// Space between the name in the banner and the line below it, logical pixels.
 const BELOW_NAME: f32 = 4.0;
+/// Width of the column on the right in a wide and in a narrow window, logical pixels.
+const COLUMN: [f32; 2] = [400.0, 320.0];
 /// Space above and below the column on the right in a high and in a low window, logical pixels.
 const COLUMN_MARGIN: [i8; 2] = [20, 12];
 /// Height of a line of the list of parts, logical pixels.
@@ -64,15 +66,10 @@ pub(super) fn ui(
                 .inner_margin(Margin::symmetric(36, 0)),
         )
         .show(ui, |ui| banner_ui(ui, &banner));
-    Panel::right("next step")
-        .exact_size(column_width(size.x))
-        .resizable(false)
-        .frame(
-            Frame::new()
-                .fill(theme.panel)
-                .inner_margin(Margin::symmetric(24, COLUMN_MARGIN[is_low])),
-        )
-        .show(ui, |ui| column(ui, &banner, session, actions));
+    let margin = Margin::symmetric(24, COLUMN_MARGIN[is_low]);
+    side_panel(ui, "next step", COLUMN, margin, |ui| {
+        column(ui, &banner, session, actions);
+    });
     // The parts of an earlier frame no longer count.
     let shown = session.shown.as_ref().filter(|_| banner.is_current);
     if let Some(shown) = shown {
@@ -265,7 +262,7 @@ fn column(ui: &mut Ui, banner: &Banner, session: &Session, actions: &mut Vec<Ins
     // A caution and the last parts are worth more than a menu that is not in use.
     if !expects_any || banner.caution.is_empty() {
         let mut of_shell = Vec::new();
-        expect_menu::ui(ui, session, &mut of_shell);
+        expecting::ui(ui, session, &mut of_shell);
         actions.extend(of_shell.into_iter().map(InspectAction::Act));
     }
     robots_without_answer(ui, session);
@@ -370,10 +367,7 @@ mod tests {
     use egui::{Pos2, RawInput, Rect, Shape};
 
     use super::*;
-    use shell::{
-        frame::operator_bars::COLUMN,
-        inspection::{inspected::inspected_cell, source::CellChoice},
-    };
+    use shell::inspection::{inspected::inspected_cell, source::CellChoice};
     use ui::theme::ThemeChoice;
 
     #[test]

@@ -2,11 +2,13 @@
 
 use egui::{Align, Layout, RichText, Ui};
 
-use super::{action::InspectAction, hold::Hold};
+use super::hold::Hold;
+use crate::workspaces::inspect::state::InspectAction;
 use geometry::rigid::RigidTransform;
 use robot::{Convention, RobotPose, RobotValue, Unit};
 use shell::{
-    inspection::inspected::Inspected, language::robot::convention_meaning, session::Session,
+    action::Action, inspection::inspected::Inspected, language::convention_meaning,
+    session::Session,
 };
 use ui::{
     language::{described, text},
@@ -143,7 +145,7 @@ fn choice(ui: &mut Ui, chosen: Convention, actions: &mut Vec<InspectAction>) {
     })
     .on_hover_text(text!("inspect-convention-says"));
     if convention != chosen {
-        actions.push(InspectAction::UseConvention(convention));
+        actions.push(InspectAction::Act(Action::UseConvention(convention)));
     }
 }
 

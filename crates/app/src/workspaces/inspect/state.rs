@@ -1,29 +1,28 @@
-//! State of the workspace besides the result, and the actions that change it.
+//! State of the workspace besides the result, the actions that change it, and the files that it asks for.
 
 use std::{collections::BTreeSet, path::PathBuf, sync::Arc};
 
-use super::{
-    action::{InspectAction, InspectFile},
-    hold::Hold,
-    robot_numbers::{clipboard_text, numbered},
+use crate::{
+    shots::{Asked, ShotsAction, ShotsFile, ShotsState, source_of},
+    workspaces::inspect::{
+        hold::Hold,
+        robot_numbers::{clipboard_text, numbered},
+    },
 };
-use crate::shots::{Asked, ShotsAction, ShotsFile, ShotsState, source_of};
 use records::history::Traceability;
 use shell::{
-    action::{Action, Effect},
-    context::ShellContext,
-    file_dialog::FileDialog,
+    action::{Action, Event},
+    file_dialog::{FileChoice, FileDialog, FileRequest, program_files},
     inspection::{
         figures::StagePanel,
-        fuse::FusedShots,
         inspected::{InspectJob, Inspected},
         report_files,
-        scan_choice::{ScanOrder, ShotChoice},
+        scan::FusedShots,
+        source::{ScanOrder, ShotChoice},
     },
-    message::{Event, Message},
     notice::Notice,
     session::{ReinspectionPurpose, Session, Source, WorkspaceKind},
-    source::live::LiveAction,
+    workspace::ShellContext,
 };
 use ui::{
     language::{described, text},
@@ -178,24 +177,16 @@ impl InspectState {
             InspectAction::Colour(colouring) => self.colouring = Some(colouring),
             InspectAction::Enlarge(panel) => self.enlarged = panel,
             InspectAction::Candidate(index) => self.candidate = index,
-            InspectAction::SelectPart(index) => cx.send(Message::Act(Action::SelectPart(index))),
             InspectAction::NextPart(by) => {
                 if let Some(shown) = &cx.session.shown {
                     let index = shown.selected() as isize + by;
                     let index = index.rem_euclid(shown.parts.len() as isize);
-                    cx.send(Message::Act(Action::SelectPart(index as usize)));
+                    cx.send(Action::SelectPart(index as usize));
                 }
             }
-            InspectAction::UseConvention(convention) => {
-                cx.send(Message::Act(Action::UseConvention(convention)));
-            }
             InspectAction::CopyPose => copy_pose(cx),
-            InspectAction::Compare => cx.send(Message::Act(Action::GoTo(WorkspaceKind::Compare))),
             InspectAction::Enrol => enrol_shown(cx),
-            InspectAction::ToggleRecording => {
-                cx.send(Message::Act(Action::Live(LiveAction::ToggleRecording)));
-            }
-            InspectAction::Act(action) => cx.send(Message::Act(action)),
+            InspectAction::Act(action) => cx.send(action),
             InspectAction::Shots(action) => self.change_shots(action, cx),
             InspectAction::Ask(file) => {
                 let lock = &cx.services.dialogs;
@@ -241,9 +232,9 @@ impl InspectState {
                         None => (ReinspectionPurpose::New, None, Traceability::default()),
                     };
                 if let ScanOrder::Open(files) = &order {
-                    cx.send(Message::UseSource(Source::Scan(files.clone())));
+                    cx.send(Action::UseSource(Source::Scan(files.clone())));
                 }
-                cx.send(Message::Inspect {
+                cx.send(Action::Inspect {
                     title: order.title(),
                     job: InspectJob::Scan(cx.session.scan_request(order)),
                     purpose,
@@ -296,7 +287,7 @@ impl InspectState {
         if let Some(files) = &files
             && let Some(source) = source_of(files, &cx.session.source)
         {
-            cx.send(Message::UseSource(source));
+            cx.send(Action::UseSource(source));
         }
         self.shots.settle(files.as_ref(), former);
     }
@@ -432,15 +423,88 @@ fn copy_pose(cx: &mut ShellContext<'_>) {
         convention = title
     );
     cx.notify(Notice::done(what));
-    cx.send(Message::CopyText(clipboard_text(&numbered)));
+    cx.send(Action::CopyText(clipboard_text(&numbered)));
 }
 
 /// Makes the scene in front the draft of Enrol, and goes there.
 fn enrol_shown(cx: &mut ShellContext<'_>) {
     if let Some(shown) = &cx.session.shown {
-        let take = Effect::Take(shown.inspected.again(), text!("enrol-taking-scene"));
-        cx.send(Message::Act(Action::GoTo(WorkspaceKind::Enrol)));
-        cx.send(Message::Act(Action::Make(take)));
+        let take = Action::Take(shown.inspected.again(), text!("enrol-taking-scene"));
+        cx.send(Action::GoTo(WorkspaceKind::Enrol));
+        cx.send(take);
+    }
+}
+
+/// An action in the workspace.
+#[derive(Clone, Debug)]
+pub enum InspectAction {
+    /// Show or hide this in the view.
+    Toggle(ViewPart),
+    /// Choose what colours the points.
+    Colour(Colouring),
+    /// Enlarge a stage to fill the middle; `None` shows the view again.
+    Enlarge(Option<StagePanel>),
+    /// Show the part that many places further in the frame, in a circle.
+    NextPart(isize),
+    /// Compare contour and signature with the part at this index of the ranking.
+    Candidate(usize),
+    /// Copy the pose to the clipboard, in the chosen convention.
+    CopyPose,
+    /// Make the scene in front the draft of Enrol, and go there.
+    Enrol,
+    /// An action of the shell.
+    Act(Action),
+    /// An action on the shots of the scan shown.
+    Shots(ShotsAction),
+    /// Ask for a file.
+    Ask(InspectFile),
+    /// A file was chosen.
+    Chosen(InspectFile, PathBuf),
+}
+
+/// A file or folder that a person is asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum InspectFile {
+    /// The folder that the report of the inspection is written to.
+    Report,
+    /// The file that a picture of the view is written to.
+    Picture,
+    /// The file that the spray path is written to.
+    SprayPath,
+    /// A file of the scan.
+    Shots(ShotsFile),
+}
+
+impl InspectFile {
+    /// The dialog to open; a new file is named after the part that was inspected last.
+    fn request(self, session: &Session) -> FileRequest {
+        let shown = session.shown.as_ref();
+        let verdict = shown.map(|shown| &shown.inspected.inspection.verdict);
+        let verdict = verdict.filter(|verdict| !verdict.is_unknown());
+        let part = verdict.and_then(|verdict| verdict.guess());
+        let part = part.unwrap_or("scene");
+        match self {
+            Self::Report => FileRequest {
+                title: text!("inspect-report-folder"),
+                filters: Vec::new(),
+                choice: FileChoice::FolderToWrite,
+            },
+            Self::Picture => FileRequest {
+                title: text!("inspect-save-picture"),
+                filters: vec![(text!("inspect-pictures"), &["png"])],
+                choice: FileChoice::NewFile(format!("{part}.png")),
+            },
+            Self::SprayPath => FileRequest {
+                title: text!("inspect-export-path-title"),
+                filters: vec![
+                    (text!("shell-csv-files"), &["csv"]),
+                    ("JSON".into(), &["json"]),
+                    program_files(),
+                ],
+                choice: FileChoice::NewFile(format!("{part}-path.csv")),
+            },
+            Self::Shots(file) => file.request(),
+        }
     }
 }
 
@@ -450,9 +514,12 @@ mod tests {
     use geometry::rigid::RigidTransform;
     use robot::RobotFrame;
     use shell::{
-        context::TestShell,
-        inspection::{inspected::inspected_cell, scan_choice::ScanFiles, source::CellChoice},
+        inspection::{
+            inspected::inspected_cell,
+            source::{CellChoice, ScanFiles},
+        },
         session::Shown,
+        workspace::TestShell,
     };
 
     #[test]
@@ -517,10 +584,10 @@ mod tests {
             ..scan
         };
         assert!(matches!(
-            &shell.messages[..],
+            &shell.sent[..],
             [
-                Message::UseSource(Source::Scan(files)),
-                Message::Inspect {
+                Action::UseSource(Source::Scan(files)),
+                Action::Inspect {
                     job: InspectJob::Scan(request),
                     purpose: ReinspectionPurpose::New,
                     hung: None,
@@ -536,20 +603,20 @@ mod tests {
         let mut shell = TestShell::default();
         let mut state = InspectState::new(&TaskRunner::without_threads());
         state.apply(InspectAction::CopyPose, &mut shell.context());
-        assert!(shell.messages.is_empty(), "nothing is shown");
+        assert!(shell.sent.is_empty(), "nothing is shown");
         let found = inspected_cell(CellChoice::InTurn, 1);
         shell.session.shown = Some(Shown::new(1, Arc::new(found)));
         state.apply(InspectAction::CopyPose, &mut shell.context());
         assert_eq!(shell.notices(), ["Not calibrated: the robot gets no pose"]);
-        shell.messages.clear();
+        shell.sent.clear();
         shell.session.robot = Some(Arc::new(RobotFrame {
             robot_from_camera: RigidTransform::identity(),
             name: "cell 1".into(),
         }));
         state.apply(InspectAction::CopyPose, &mut shell.context());
         assert!(matches!(
-            &shell.messages[..],
-            [Message::Notify(_), Message::CopyText(_)]
+            &shell.sent[..],
+            [Action::Notify(_), Action::CopyText(_)]
         ));
     }
 }

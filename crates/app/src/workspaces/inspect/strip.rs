@@ -4,10 +4,8 @@ use egui::{
     Align, Button, Frame, Label, Layout, Margin, Rect, RichText, Sense, Ui, Vec2, pos2, vec2,
 };
 
-use super::{
-    action::InspectAction,
-    plots::{Pictures, PlotDetail},
-};
+use super::plots::{Pictures, PlotDetail};
+use crate::workspaces::inspect::state::InspectAction;
 use inspection::pipeline::Timings;
 use shell::inspection::figures::StagePanel;
 use ui::{

@@ -23,14 +23,14 @@ use inspection::{
 use records::history::Traceability;
 use robot::{RobotFrame, spray::carry};
 use shell::{
-    context::TestShell,
+    action::Action,
     inspection::{
         inspected::{Inspected, LiveFrameContext, inspected_cell},
         source::{CellChoice, Origin},
     },
-    message::Message,
     session::{Inspecting, ReinspectionPurpose, Session, Shown, Source, UserRole},
     source::live::{LiveStatus, SourceState},
+    workspace::TestShell,
 };
 use stages::{pose::RunnerUp, scan};
 use station::{CaptureFacts, ScanFacts};
@@ -348,10 +348,10 @@ fn agree(shell: &mut TestShell, may: May, state: &str) {
     );
     // What is copied, and what is written in place of the file of an earlier part.
     let mut inspect = InspectState::new(&TaskRunner::without_threads());
-    shell.messages.clear();
+    shell.sent.clear();
     inspect.apply(InspectAction::CopyPose, &mut shell.context());
-    let copied = shell.messages.iter().find_map(|message| match message {
-        Message::CopyText(text) => Some(text.starts_with("robot_from_part")),
+    let copied = shell.sent.iter().find_map(|message| match message {
+        Action::CopyText(text) => Some(text.starts_with("robot_from_part")),
         _ => None,
     });
     assert_eq!(copied, has_numbers.then_some(true), "{state}");

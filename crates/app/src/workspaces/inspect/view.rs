@@ -5,18 +5,21 @@ use std::{collections::BTreeSet, sync::Arc};
 use egui::{Color32, Key, Modifiers, Painter, Rect, Ui, UiBuilder, Vec2, pos2, vec2};
 
 use super::{
-    action::InspectAction,
     controls,
     frame_parts::numbered,
     headline::{Headline, HeadlineState},
     state::{InspectState, ViewPart},
 };
-use crate::shots::{Overlay, POINT_SIZE};
+use crate::{
+    shots::{Overlay, POINT_SIZE},
+    workspaces::inspect::state::InspectAction,
+};
 use geometry::{oriented_box::OrientedBox, rigid::RigidTransform, units::Metres};
 use inspection::rack::Rack;
 use records::history::HungId;
 use shell::{
-    inspection::{inspected::Inspected, scene_figure::SprayFigure, unit_system::UnitSystem},
+    inspection::{inspected::Inspected, scene_figure::SprayFigure},
+    language::UnitSystem,
     session::{Session, Shown},
 };
 use ui::{

@@ -4,15 +4,12 @@
 //! side      part, coat, figures of the film       parameters from the coat's table
 //! tools     pattern, regions, undo
 //! view      the part by its film, rows, the gun   region: what is drawn becomes a region
-//! timeline  the path over time                    course: when the gun is where
-//! state     what is shown, asked for and stored   work: plan, simulate, store
+//! timeline  the path over time
+//! state     what is shown, asked for and stored   work: plan, simulate, store; when the gun is where
 //! robot     arm and gun of its programs           reach: which points the arm reaches, and the program
-//! design    what is painted how, and its undo     coats: chosen, changed, saved; playback: the place in time
+//! design    what is painted how, and its undo     its coat: chosen, changed, saved
 //! ```
 
-mod action;
-mod coats;
-mod course;
 mod design;
 mod reach;
 mod region;
@@ -30,19 +27,16 @@ use egui::{CentralPanel, Frame, Key, Margin, Modifiers, Panel, Rect, Ui};
 
 use self::view::PaintView;
 pub use self::{
-    action::{PaintAction, PaintFile, ShownPath},
-    course::{GunCourse, GunState},
     design::Design,
     reach::Reach,
     region::{EditKind, PaintTool, RegionUse},
-    state::PaintState,
-    work::Planned,
+    state::{PaintAction, PaintFile, PaintState, ShownPath},
+    work::{GunCourse, GunState, Planned},
 };
 use shell::{
-    context::ShellContext,
-    message::Event,
+    action::Event,
     session::{Session, WorkspaceKind},
-    workspace::Workspace,
+    workspace::{ShellContext, Workspace},
 };
 pub use ui::scrubber::Playback;
 use ui::{

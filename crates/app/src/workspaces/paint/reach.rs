@@ -25,7 +25,6 @@ use robot::{
 };
 use shell::{
     cell::ProgramSetup,
-    context::ShellContext,
     inspection::{
         library_cache::LibraryCache,
         report_files::{self, ProgramTarget, WrittenForRobot, remove_earlier},
@@ -33,6 +32,7 @@ use shell::{
     },
     notice::Notice,
     session::{Session, WorkspaceKind},
+    workspace::ShellContext,
 };
 use stages::{reference::Coverage, stand_off::StandOffParams};
 use station::robot_file::{RobotFile, Unchecked};

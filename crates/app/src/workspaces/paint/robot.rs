@@ -4,18 +4,18 @@
 use egui::{Button, DragValue, Key, Label, RichText, Role, Ui, WidgetInfo};
 
 use super::{
-    action::{PaintAction, PaintFile},
     reach::Reach,
     side::{TITLE, menu},
     state::PaintState,
 };
+use crate::workspaces::paint::state::{PaintAction, PaintFile};
 use inspection::pipeline::parameters::{Kind, Parameter, Parameters as _};
 use robot::{
     Convention,
     arm::{ARM_NAMES, Arm, PointProblem},
     program::ProgramParams,
 };
-use shell::{cell::ProgramSetup, language::robot::not_checked, session::Session};
+use shell::{cell::ProgramSetup, language::not_checked, session::Session};
 use station::robot_file::Unchecked;
 use ui::{
     language::{parameters, text},

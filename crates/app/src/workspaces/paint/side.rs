@@ -1,23 +1,21 @@
 //! On the right: the part, its coat with every parameter, the figures of the film, and what can be done with the path.
 
 use egui::{
-    Button, CentralPanel, Frame, Id, IntoAtoms, Label, Margin, Panel, Popup, Rect, Response,
-    RichText, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2,
+    Button, CentralPanel, Id, IntoAtoms, Label, Panel, Popup, Rect, Response, RichText, ScrollArea,
+    Sense, Ui, WidgetInfo, pos2, vec2,
 };
 
-use super::{
-    action::{PaintAction, PaintFile, ShownPath},
-    robot,
-    state::PaintState,
-    timeline::minutes,
-    work::Planned,
+use super::{robot, state::PaintState, timeline::minutes, work::Planned};
+use crate::{
+    shared::panel_frame,
+    workspaces::paint::state::{PaintAction, PaintFile, ShownPath},
 };
 use ::robot::paint::{Coat, CoatGroup, FilmFigures, LEAST_WITHIN};
 use inspection::{
     library::Side,
     pipeline::parameters::{Parameters as _, Place},
 };
-use shell::{language::results::painted_from, session::Session};
+use shell::{language::painted_from, session::Session};
 use stages::reference::Coverage;
 use ui::{
     language::{parameters, text, within_sentence},
@@ -38,14 +36,7 @@ pub(super) fn ui(
     actions: &mut Vec<PaintAction>,
 ) {
     let theme = Theme::of(ui);
-    let frame = |top, bottom| {
-        Frame::new().fill(theme.panel).inner_margin(Margin {
-            left: 16,
-            right: 14,
-            top,
-            bottom,
-        })
-    };
+    let frame = |top, bottom| panel_frame(theme, top, bottom);
     Panel::bottom("paint actions")
         .resizable(false)
         .frame(frame(8, 12))

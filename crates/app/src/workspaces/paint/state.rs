@@ -1,9 +1,8 @@
-//! State of the workspace, and the actions that change it.
+//! State of the workspace, the actions that change it, and the files that it asks for.
 
 use std::{path::PathBuf, sync::Arc};
 
-use super::{
-    action::{PaintAction, PaintFile, ShownPath},
+use crate::workspaces::paint::{
     design::{Design, Step},
     reach::{Reach, ReachRequest},
     region::PaintTool,
@@ -13,18 +12,19 @@ use inspection::{
     library::{PartMeta, PartName, Side, SprayPath},
     pipeline::Verdict,
 };
-use robot::paint::{BUILT_IN_COATS, CoatFolder, built_in_coat};
+use robot::paint::{BUILT_IN_COATS, CoatFolder, KeepOut, PathEdit, built_in_coat};
 use shell::{
-    cell::ProgramSetup,
-    context::ShellContext,
-    file_dialog::FileDialog,
+    action::{Action, Event},
+    cell::{ProgramSetup, program_file_name},
+    file_dialog::{FileChoice, FileDialog, FileRequest, all_files, program_files},
     inspection::source::file_name,
-    message::{Event, Message},
     notice::{Notice, NoticeTopic},
     session::{Session, WorkspaceKind},
+    workspace::ShellContext,
 };
 use ui::{
     language::text,
+    parameter_control::ParameterChange,
     scrubber::Playback,
     task::{Running, Task, TaskRunner},
     undo_stack::{UndoDirection, UndoStack},
@@ -249,7 +249,7 @@ impl PaintState {
             PaintAction::ResetCoat => self.change(|design| design.coat = design.kept.recipe),
             PaintAction::Name(name) => {
                 self.naming = name;
-                cx.send(Message::RemoveNotices(NoticeTopic::CoatName));
+                cx.send(Action::RemoveNotices(NoticeTopic::CoatName));
             }
             PaintAction::SaveCoat => self.save_coat(cx),
             PaintAction::Show(path) => self.shown_path = path,
@@ -459,7 +459,7 @@ impl PaintState {
             }
             PaintResult::SideChosen(library) => {
                 let saved = None;
-                cx.send(Message::LibraryChanged { library, saved });
+                cx.send(Action::LibraryChanged { library, saved });
             }
             PaintResult::Stored {
                 part,
@@ -480,7 +480,7 @@ impl PaintState {
                     _ => Notice::undoable(what, WorkspaceKind::Paint),
                 });
                 let saved = None;
-                cx.send(Message::LibraryChanged { library, saved });
+                cx.send(Action::LibraryChanged { library, saved });
             }
         }
     }
@@ -500,6 +500,117 @@ fn recognised<'a>(
         name if name == part => 1,
         _ => 2,
     })
+}
+
+/// An action in the workspace.
+#[derive(Clone, Debug, PartialEq)]
+pub enum PaintAction {
+    /// Paint this enrolled part.
+    ChoosePart(PartName),
+    /// Paint the part from this side from now on.
+    ChooseSide(Side),
+    /// Use the coat of this name.
+    ChooseCoat(String),
+    /// Change the parameter with this key.
+    Change(&'static str, ParameterChange),
+    /// Reset every parameter to the saved coat.
+    ResetCoat,
+    /// Set the name being entered for the coat; `None` closes the field.
+    Name(Option<String>),
+    /// Save the coat under the entered name.
+    SaveCoat,
+    /// Choose the path to show.
+    Show(ShownPath),
+    /// Choose what a left drag in the view does.
+    Use(PaintTool),
+    /// Add these regions; new areas to be painted join the earlier ones.
+    Add(Vec<KeepOut>),
+    /// Correct the path by hand.
+    Edit(PathEdit),
+    /// Remove all regions and corrections by hand.
+    Clear,
+    /// Undo the last step.
+    Undo,
+    /// Redo the step undone last.
+    Redo,
+    /// Propose row spacing and speed.
+    Propose,
+    /// Store the path with the part.
+    Store,
+    /// Switch between colours by film and plain shape.
+    ToggleFilm,
+    /// Set arm and gun for robot programs.
+    SetUp(ProgramSetup),
+    /// Move to the next point that the arm does not reach.
+    ShowUnreached,
+    /// Ask for a file.
+    Ask(PaintFile),
+    /// A file was chosen.
+    Chosen(PaintFile, PathBuf),
+    /// Move to this time on the path, seconds.
+    Scrub(f64),
+    /// Move by this many strokes.
+    Step(i32),
+    /// Play or pause.
+    TogglePlay,
+    /// Advance playback by this many seconds.
+    Advance(f64),
+}
+
+/// The path shown.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ShownPath {
+    /// The path planned with the coat.
+    #[default]
+    Planned,
+    /// The path stored with the part.
+    Stored,
+}
+
+/// A file that a person is asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PaintFile {
+    /// The table that the path is written to.
+    Table,
+    /// The robot program that the path is written to.
+    Program,
+    /// The arm, a TOML file.
+    Arm,
+    /// The cell's boxes and floor, a TOML file.
+    Obstacles,
+}
+
+impl PaintFile {
+    /// The dialog to open. A new file is named after the part, a program as usual for the robot.
+    fn request(self, part: Option<&PartName>, session: &Session) -> FileRequest {
+        let part = part.map_or("part", PartName::as_str);
+        match self {
+            Self::Program => FileRequest {
+                title: text!("paint-program-title"),
+                filters: vec![program_files()],
+                choice: FileChoice::NewFile(program_file_name(
+                    part,
+                    &session.program,
+                    session.convention,
+                )),
+            },
+            Self::Arm => FileRequest {
+                title: text!("paint-arm-title"),
+                filters: vec![("TOML".into(), &["toml"]), all_files()],
+                choice: FileChoice::File,
+            },
+            Self::Obstacles => FileRequest {
+                title: text!("paint-obstacles-title"),
+                filters: vec![("TOML".into(), &["toml"]), all_files()],
+                choice: FileChoice::File,
+            },
+            Self::Table => FileRequest {
+                title: text!("paint-export-title"),
+                filters: vec![(text!("shell-csv-files"), &["csv"])],
+                choice: FileChoice::NewFile(format!("{part}-path.csv")),
+            },
+        }
+    }
 }
 
 #[cfg(test)]

@@ -2,7 +2,8 @@
 
 use egui::{Align2, Id, Sense, Ui, pos2, vec2};
 
-use super::{action::PaintAction, state::PaintState, work::Planned};
+use super::{state::PaintState, work::Planned};
+use crate::workspaces::paint::state::PaintAction;
 use ui::{
     language::text,
     scrubber::{Playback, Scrubber, ScrubberInput},

@@ -3,10 +3,10 @@
 use egui::Ui;
 
 use super::{
-    action::PaintAction,
     region::{EditKind, PaintTool, RegionUse},
     state::PaintState,
 };
+use crate::workspaces::paint::state::PaintAction;
 use inspection::pipeline::parameters::Parameter;
 use robot::paint::Coat;
 use ui::{

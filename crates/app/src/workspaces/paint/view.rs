@@ -2,17 +2,16 @@
 
 use std::{f64::consts::TAU, sync::Arc};
 
-use egui::{Rect, Ui, UiBuilder, Vec2, vec2};
+use egui::{Rect, Ui, vec2};
 use glam::Vec3;
 use nalgebra::Vector3;
 
 use super::{
-    action::PaintAction,
-    course::GunState,
     region::{BRUSH, EditKind, PaintTool, RegionUse, at_depth_of, brushed, corners_of},
     state::PaintState,
     work::{MAGNIFIED, Planned, aim},
 };
+use crate::workspaces::paint::{state::PaintAction, work::GunState};
 use geometry::units::Metres;
 use inspection::library::PartName;
 use robot::paint::{KeepOut, PathEdit};
@@ -115,11 +114,7 @@ impl PaintView {
         if let (Some(way), Some(planned)) = (seen.drawn.or(clicked), &paint.planned) {
             actions.extend(self.drawn(&way, planned, paint.tool, rect));
         }
-        let bar = vec2(rect.width() - 2.0 * space::SMALL, space::TARGET);
-        let bar = Rect::from_min_size(rect.min + Vec2::splat(space::SMALL), bar);
-        ui.scope_builder(UiBuilder::new().max_rect(bar), |ui| {
-            ui.horizontal(|ui| ViewDirection::buttons(ui, &mut self.camera));
-        });
+        ViewDirection::buttons(ui, rect, &mut self.camera);
         self.tool_overlay(ui, rect, paint);
     }
 

@@ -8,7 +8,6 @@
 //!
 //! While a robot is servoed, the space bar and Esc stop it before any control gets them.
 
-mod action;
 mod setup;
 mod side;
 mod state;
@@ -19,15 +18,13 @@ use egui::{CentralPanel, Event as InputEvent, Frame, Key, Margin, Modifiers, Pan
 
 use self::view::RunSceneView;
 pub use self::{
-    action::{ServoAction, ServoFile},
-    state::ServoPageState,
+    state::{ServoAction, ServoFile, ServoPageState},
     work::RunView,
 };
+use crate::shared::servo_curve;
 use shell::{
-    context::ShellContext,
-    servo_curve,
     session::{Session, WorkspaceKind},
-    workspace::Workspace,
+    workspace::{ShellContext, Workspace},
 };
 use ui::{
     key_binding::{KeyBinding, Shortcut},
@@ -88,7 +85,7 @@ impl Workspace for ServoWorkspace {
         let bottom = Panel::bottom("servo curve").exact_size(curve_height + 16.0);
         fixed_panel(ui, bottom, Margin::symmetric(8, 8), |ui| {
             let tolerance = state.tolerance(session);
-            servo_curve::ui(ui, state.curve(), tolerance, curve_height);
+            servo_curve(ui, state.curve(), tolerance, curve_height);
         });
         let room = ui.available_rect_before_wrap();
         CentralPanel::default()

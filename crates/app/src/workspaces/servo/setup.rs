@@ -2,16 +2,12 @@
 
 use egui::{Button, DragValue, Role, Ui, WidgetInfo, vec2};
 
-use super::{
-    action::{ServoAction, ServoFile},
-    state::chosen_part,
-};
+use super::state::chosen_part;
+use crate::workspaces::servo::state::{ServoAction, ServoFile};
 use geometry::oriented_box::OrientedBox;
 use records::history::ServoTargetKind;
 use servo::{ServoParams, simulated::StreamProtocol};
-use shell::{
-    cell::ServoSettings, language::robot::target_title, rack::box_numbers, session::Session,
-};
+use shell::{cell::ServoSettings, language::target_title, rack::box_numbers, session::Session};
 use ui::{
     language::text,
     theme::space,

@@ -3,15 +3,14 @@
 use egui::{Button, Frame, Margin, RichText, ScrollArea, Ui, vec2};
 
 use super::{
-    action::ServoAction,
     setup,
     state::{ServoPageState, ready},
     work::RunView,
 };
+use crate::workspaces::servo::state::ServoAction;
 use servo::ServoState;
 use shell::{
-    inspection::unit_system::UnitSystem,
-    language::robot::{end_title, shift_and_turn, state_title},
+    language::{UnitSystem, end_title, shift_and_turn, state_title},
     session::Session,
 };
 use ui::{

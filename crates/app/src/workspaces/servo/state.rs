@@ -1,21 +1,22 @@
-//! State of the workspace: the run that is shown, and the one that goes on.
+//! State of the workspace: the run that is shown, and the one that goes on; and the actions that change it.
 
-use std::sync::{Arc, atomic::Ordering};
-
-use super::{
-    action::{ServoAction, ServoFile},
-    work::{self, Orders, RealCell, RunRequest, RunView, not_calibrated},
+use std::{
+    path::PathBuf,
+    sync::{Arc, atomic::Ordering},
 };
+
+use crate::workspaces::servo::work::{self, Orders, RealCell, RunRequest, RunView, not_calibrated};
 use capture::SourceSpec;
+use files::SCENE_ENDINGS;
 use records::history::{ServoSample, ServoTargetKind};
 use servo::{ServoState, simulated::StreamProtocol};
 use shell::{
     action::Action,
-    context::ShellContext,
-    file_dialog::FileDialog,
-    message::Message,
+    cell::ServoSettings,
+    file_dialog::{FileChoice, FileDialog, FileRequest, all_files},
     notice::Notice,
     session::{Session, WorkspaceKind},
+    workspace::ShellContext,
 };
 use simulate::PartKind;
 use station::servoing::RobotAddress;
@@ -94,7 +95,7 @@ impl ServoPageState {
     /// Carries out an action.
     pub fn apply(&mut self, action: ServoAction, cx: &mut ShellContext<'_>) {
         match action {
-            ServoAction::SetUp(setup) => cx.send(Message::UseServoSettings(setup)),
+            ServoAction::SetUp(setup) => cx.send(Action::UseServoSettings(setup)),
             ServoAction::Ask(file) => {
                 let lock = &cx.services.dialogs;
                 self.files.open(file, &file.request(), lock, cx.egui);
@@ -105,10 +106,10 @@ impl ServoPageState {
                     setup.seen_as.push(path);
                 }
                 setup.target = ServoTargetKind::CameraPose;
-                cx.send(Message::UseServoSettings(setup));
+                cx.send(Action::UseServoSettings(setup));
             }
             ServoAction::GoToRobot => {
-                cx.send(Message::Act(Action::GoTo(WorkspaceKind::Paint)));
+                cx.send(Action::GoTo(WorkspaceKind::Paint));
             }
             ServoAction::Start => self.start(cx),
             ServoAction::Stop => self.stop(),
@@ -250,4 +251,42 @@ pub(super) fn ready(session: &Session) -> Result<(String, Option<RealCell>), Use
         calibration,
     };
     Ok((part.to_owned(), Some(cell)))
+}
+
+/// An action in the workspace.
+#[derive(Clone, Debug)]
+pub enum ServoAction {
+    /// Use these settings.
+    SetUp(ServoSettings),
+    /// Ask for a file.
+    Ask(ServoFile),
+    /// Add a frame of the target.
+    SeeAs(PathBuf),
+    /// Go where arm, nozzle and least distance are set.
+    GoToRobot,
+    /// Servo the robot.
+    Start,
+    /// Stop the robot.
+    Stop,
+    /// Allow the step that waits.
+    Next,
+}
+
+/// A file that a person is asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ServoFile {
+    /// A frame of the part, taken where the camera should stand.
+    SeenAs,
+}
+
+impl ServoFile {
+    fn request(self) -> FileRequest {
+        match self {
+            Self::SeenAs => FileRequest {
+                title: text!("servoing-frame-title"),
+                filters: vec![(text!("shell-captured-scenes"), SCENE_ENDINGS), all_files()],
+                choice: FileChoice::File,
+            },
+        }
+    }
 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use egui::{Rect, Ui, UiBuilder, Vec2, vec2};
+use egui::{Ui, vec2};
 use glam::Vec3;
 use nalgebra::Point3;
 
@@ -146,11 +146,7 @@ impl RunSceneView {
             .viewport
             .ui(ui, &label, &mut self.camera, &scene, &self.style);
         self.has_focus = seen.response.has_focus();
-        let bar = vec2(rect.width() - 2.0 * space::SMALL, space::TARGET);
-        let bar = Rect::from_min_size(rect.min + Vec2::splat(space::SMALL), bar);
-        ui.scope_builder(UiBuilder::new().max_rect(bar), |ui| {
-            ui.horizontal(|ui| ViewDirection::buttons(ui, &mut self.camera));
-        });
+        ViewDirection::buttons(ui, rect, &mut self.camera);
         let keys = meanings.iter().map(|meaning| {
             let colour = self.style.colours.role(meaning.role).colour;
             (colour, (meaning.name)())

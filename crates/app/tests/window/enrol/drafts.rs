@@ -7,10 +7,7 @@ use app::{
     workspaces::enrol::{EnrolAction, EnrolWorkspace, draft::Field},
 };
 use egui_kittest::kittest::Queryable as _;
-use shell::{
-    action::{Action, Effect},
-    session::WorkspaceKind,
-};
+use shell::{action::Action, session::WorkspaceKind};
 use simulate::{PartKind, Side};
 
 use super::{capture, kept, library, names, notices, open, pass_time, write};
@@ -21,18 +18,18 @@ fn a_window_with_an_unsaved_draft_asks_before_it_closes() {
     let library = library();
     let mut harness = open(library.path());
     capture(&mut harness, PartKind::Grille, Side::Right);
-    act(&mut harness, Action::Make(Effect::Close));
+    act(&mut harness, Action::Close);
     assert!(harness.query_by_label("Close without saving?").is_none());
     write(&mut harness, "Title", "Grille");
     for _ in 0..2 {
-        act(&mut harness, Action::Make(Effect::Close));
+        act(&mut harness, Action::Close);
         harness.get_by_label("Close without saving?");
         harness.get_by_label("Grille, the part in Enrol, is not saved");
         press(&mut harness, "Keep the window open");
         assert!(harness.query_by_label("Close without saving?").is_none());
     }
     press(&mut harness, "Save");
-    act(&mut harness, Action::Make(Effect::Close));
+    act(&mut harness, Action::Close);
     assert!(harness.query_by_label("Close without saving?").is_none());
 }
 

@@ -3,20 +3,11 @@
 //! The camera's thread hands over its newest frame, the task's thread inspects it, and the window shows the latest result. No
 //! thread waits for another: frames that arrive during an inspection are dropped.
 
-mod live_state;
 mod parts;
-mod set_up;
 pub mod state;
 mod status;
 mod work;
 
-pub use self::{
-    live_state::{Follower, LiveAction, LiveState},
-    set_up::set_up,
-    state::{close, update},
-    status::card,
-    work::{LiveAnswer, LiveStatus, LiveStatusUpdate, SourceState},
-};
 pub(crate) use self::{
     parts::{FollowedParts, assign_as_before},
     state::{
@@ -24,4 +15,11 @@ pub(crate) use self::{
         source_changed, tell_if_lost,
     },
     status::{chip, words},
+};
+pub use self::{
+    state::{close, update},
+    status::card,
+    work::{
+        Follower, LiveAction, LiveAnswer, LiveState, LiveStatus, LiveStatusUpdate, SourceState,
+    },
 };

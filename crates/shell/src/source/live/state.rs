@@ -2,16 +2,13 @@
 
 use std::{mem, sync::Arc, thread, time::Duration};
 
-use super::{
-    live_state::LiveAction,
-    work::{LiveAnswer, LiveRecord, LiveStart, SourceState, follow, rest},
-};
+use super::work::{LiveAnswer, LiveRecord, LiveStart, SourceState, follow, rest};
 use crate::{
-    action::{DialogRequest, Effect},
+    action::{Action, DialogRequest, Event},
     inspection::{camera::no_more_frames, inspected::Inspected},
-    message::Event,
     notice::{Notice, NoticeTopic},
     session::{ReinspectionPurpose, Session, Shown, Source, UserRole, WorkspaceKind},
+    source::live::work::LiveAction,
     state::{State, notify, remove_notices},
     trace::{current_trace::CurrentTrace, expecting},
 };
@@ -26,7 +23,7 @@ use ui::{
 const TURN: Duration = Duration::from_millis(5);
 
 /// Carries out an action.
-pub fn apply(state: &mut State, action: LiveAction) -> Option<Effect> {
+pub fn apply(state: &mut State, action: LiveAction) -> Option<Action> {
     match action {
         LiveAction::Toggle if state.session.is_live() => give_way(state),
         LiveAction::Toggle => start(state),
@@ -49,7 +46,7 @@ pub fn apply(state: &mut State, action: LiveAction) -> Option<Effect> {
             }
         }
         LiveAction::ToggleRecording if state.session.live.recording.is_none() => {
-            return Some(Effect::ShowDialog(DialogRequest::RecordTo));
+            return Some(Action::Ask(DialogRequest::RecordTo));
         }
         LiveAction::ToggleRecording => {
             end_recording(state);
@@ -65,7 +62,7 @@ pub fn apply(state: &mut State, action: LiveAction) -> Option<Effect> {
 
 /// Handles a change of the source: follows it if the former one was followed, else captures one frame. A watched folder is
 /// followed at once because it has no frame yet.
-pub(crate) fn source_changed(state: &mut State) -> Option<Effect> {
+pub(crate) fn source_changed(state: &mut State) -> Option<Action> {
     let source = &state.session.source;
     if (state.session.is_live() || source.is_watched()) && source.followed().is_some() {
         start(state);
@@ -420,7 +417,6 @@ mod tests {
 
     use super::*;
     use crate::{
-        action::Action,
         apply::apply as apply_any,
         inspection::{
             camera::Camera, inspected::inspected_cell, library_cache::LibraryCache,

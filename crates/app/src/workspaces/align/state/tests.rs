@@ -4,11 +4,11 @@ use super::*;
 use crate::workspaces::align::{scrubber::explanation, track::in_the_window};
 use geometry::{cloud::PointCloud, rigid::RigidTransform};
 use shell::{
-    context::TestShell,
     inspection::{
         camera::Camera, inspected::inspected_cell, library_cache::LibraryCache, source::CellChoice,
     },
     session::Shown,
+    workspace::TestShell,
 };
 use simulate::{PartKind, Side};
 use stages::pose::PoseMethod;
@@ -392,7 +392,7 @@ fn the_table_is_written_as_csv_where_a_person_says() {
     assert!(text.starts_with("part,start,") && text.lines().count() == 2);
     bench.act(AlignAction::CopyTable);
     assert!(matches!(
-        bench.shell.messages.last(),
-        Some(Message::CopyText(copied)) if *copied == text.replace(',', "\t")
+        bench.shell.sent.last(),
+        Some(Action::CopyText(copied)) if *copied == text.replace(',', "\t")
     ));
 }

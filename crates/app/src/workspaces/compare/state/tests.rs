@@ -12,7 +12,7 @@ use records::{
     },
     history::FrameRecord,
 };
-use shell::context::TestShell;
+use shell::workspace::TestShell;
 use stages::scene::{PictureEdge, scene_from_cloud};
 
 fn kept(name: &str) -> KeptCase {
@@ -273,19 +273,19 @@ fn a_run_is_outdated_until_it_covers_the_cases_that_are_kept_now() {
 fn why_no_case_was_kept_is_shown_until_its_truth_is_chosen_or_another_case_is_in_front() {
     let mut bench = Bench::with_a_case();
     bench.act(CompareAction::Keep);
-    let Some(Message::Notify(notice)) = bench.shell.messages.last() else {
-        panic!("{:?}", bench.shell.messages);
+    let Some(Action::Notify(notice)) = bench.shell.sent.last() else {
+        panic!("{:?}", bench.shell.sent);
     };
     assert_eq!(notice.topic, NoticeTopic::Case);
     for action in [
         CompareAction::SetTruth(Truth::NotEnrolled),
         CompareAction::OpenCase("b".into()),
     ] {
-        bench.shell.messages.clear();
+        bench.shell.sent.clear();
         bench.act(action);
         assert!(matches!(
-            bench.shell.messages[..],
-            [Message::RemoveNotices(NoticeTopic::Case)]
+            bench.shell.sent[..],
+            [Action::RemoveNotices(NoticeTopic::Case)]
         ));
     }
 }
@@ -324,9 +324,9 @@ fn a_recipe_is_used_and_the_one_before_comes_back() {
     bench.act(CompareAction::Set("project.pixel", 4.0));
     bench.act(CompareAction::Use);
     let used = |bench: &Bench| {
-        let mut messages = bench.shell.messages.iter().rev();
-        messages.find_map(|message| match message {
-            Message::UseRecipe(recipe) => Some(Arc::clone(recipe)),
+        let mut sent = bench.shell.sent.iter().rev();
+        sent.find_map(|action| match action {
+            Action::UseRecipe(recipe) => Some(Arc::clone(recipe)),
             _ => None,
         })
     };
@@ -349,8 +349,8 @@ fn what_is_said_of_something_done_takes_the_place_of_what_was_said_before() {
         bench.compare.take_done(done, &folder, None, cx);
     }
     assert!(matches!(
-        &bench.shell.messages[..],
-        [Message::Notify(first), Message::Retract(gone), Message::Notify(second)]
+        &bench.shell.sent[..],
+        [Action::Notify(first), Action::Retract(gone), Action::Notify(second)]
             if first == gone && second.what == "Kept as b"
     ));
 }
@@ -392,7 +392,7 @@ fn a_case_in_front_that_another_program_changed_or_removed_is_shown_as_it_is() {
     bench.compare.take_cases(other, &mut bench.shell.context());
     assert_eq!(bench.compare.truth, Some(Truth::Nothing));
     assert!(bench.compare.is_study_old());
-    bench.shell.messages.clear();
+    bench.shell.sent.clear();
     bench.done(listed_as(&["b"], CaseDone::Listed));
     assert!(matches!(bench.compare.front, Front::Scene));
     assert!(bench.shell.notices()[0].contains("case a is gone"));
@@ -419,12 +419,12 @@ fn a_problem_of_the_list_is_reported_once_and_the_advice_to_keep_a_case_goes_wit
     };
     bench.done(list(&[], &["x is damaged"]));
     bench.act(CompareAction::RunAll);
-    bench.shell.messages.clear();
+    bench.shell.sent.clear();
     bench.done(list(&["a"], &["x is damaged", "y is damaged"]));
     assert_eq!(bench.shell.notices(), ["y is damaged"]);
     let gone = no_cases();
-    let mut messages = bench.shell.messages.iter();
-    assert!(messages.any(|message| matches!(message, Message::Retract(other) if *other == gone)));
+    let mut sent = bench.shell.sent.iter();
+    assert!(sent.any(|action| matches!(action, Action::Retract(other) if *other == gone)));
 }
 
 #[test]

@@ -14,7 +14,6 @@ use super::{
 use geometry::cloud::PointCloud;
 use inspection::library::{LibraryFolder, PartNaming};
 use shell::{
-    context::TestShell,
     inspection::{
         camera::Camera,
         inspected::inspected_cell,
@@ -23,6 +22,7 @@ use shell::{
     },
     notice::NoticeKind,
     session::{Shown, WorkspaceKind},
+    workspace::TestShell,
 };
 use simulate::{PartKind, Side};
 use stages::scene::SceneCloud;
@@ -72,22 +72,22 @@ impl Bench {
         }
     }
 
-    /// Carries out the messages sent, as the window would.
+    /// Carries out the actions sent, as the window would.
     fn deliver(&mut self) {
-        for message in std::mem::take(&mut self.shell.messages) {
-            match message {
-                Message::Notify(notice) => self.notices.push(notice),
-                Message::RemoveNotices(topic) => {
+        for action in std::mem::take(&mut self.shell.sent) {
+            match action {
+                Action::Notify(notice) => self.notices.push(notice),
+                Action::RemoveNotices(topic) => {
                     self.notices.retain(|notice| notice.topic != topic);
                 }
-                Message::WithdrawUndo => {
+                Action::WithdrawUndo(_) => {
                     for notice in &mut self.notices {
                         if matches!(notice.kind, NoticeKind::Undoable(_)) {
                             notice.kind = NoticeKind::Done;
                         }
                     }
                 }
-                Message::LibraryChanged { library, saved } => {
+                Action::LibraryChanged { library, saved } => {
                     self.shell.session.library = Some(library);
                     self.saved = saved;
                 }
@@ -720,8 +720,11 @@ fn an_operator_is_asked_for_the_engineer_before_anything_changes() {
     bench.shell.session.role = UserRole::Operator;
     let discard = EnrolAction::Discard;
     bench.enrol.apply(discard, &mut bench.shell.context());
-    assert!(matches!(bench.shell.messages[..], [Message::AskEngineer]));
-    bench.shell.messages.clear();
+    assert!(matches!(
+        bench.shell.sent[..],
+        [Action::EngineerIn(WorkspaceKind::Enrol)]
+    ));
+    bench.shell.sent.clear();
     assert!(bench.enrol.draft.is_some());
     bench.shell.session.role = UserRole::Engineer;
     let event = Event::EngineerIn;

@@ -7,10 +7,10 @@ use records::{
     history::{HistoryEvent, HungId, SceneTitle, StoredVerdict},
 };
 use shell::{
-    context::TestShell,
+    action::{Action, Event},
     inspection::{inspected::inspected_cell, source::CellChoice},
-    message::{Event, Message},
-    session::{ReinspectionPurpose, UserRole},
+    session::{ReinspectionPurpose, UserRole, WorkspaceKind},
+    workspace::TestShell,
 };
 use ui::language::Language;
 
@@ -253,7 +253,10 @@ fn another_rule_for_frames_waits_for_the_engineer() {
     bench.shell.session.role = UserRole::Operator;
     bench.act(HistoryAction::Rule(Some(Retention::default())));
     assert!(bench.history.rule.is_none());
-    assert!(matches!(bench.shell.messages[..], [Message::AskEngineer]));
+    assert!(matches!(
+        bench.shell.sent[..],
+        [Action::EngineerIn(WorkspaceKind::History)]
+    ));
     bench.shell.session.role = UserRole::Engineer;
     bench
         .history

@@ -12,12 +12,12 @@ use robot::{
     paint::{KeepOut, PathEdit},
 };
 use shell::{
-    context::TestShell,
     inspection::{
         camera::Camera, inspected::inspected_cell, library_cache::LibraryCache, source::CellChoice,
     },
     notice::NoticeKind,
     session::Shown,
+    workspace::TestShell,
 };
 use simulate::{PartKind, Side};
 use ui::{parameter_control::ParameterChange, viewport::Role};
@@ -97,9 +97,9 @@ impl Bench {
     /// Acts, and uses the settings of robot programs that this sends, as the window does.
     fn run_set_up(&mut self, action: PaintAction) {
         self.act(action);
-        let mut sent = self.shell.messages.iter().rev();
+        let mut sent = self.shell.sent.iter().rev();
         let setup = sent.find_map(|message| match message {
-            Message::UseProgramSetup(setup) => Some(setup.clone()),
+            Action::UseProgramSetup(setup) => Some(setup.clone()),
             _ => None,
         });
         self.shell.session.program = setup.expect("settings");
@@ -248,9 +248,9 @@ fn the_notice_of_a_stored_path_takes_it_back_whatever_was_changed_since() {
     bench.set("spacing", 50.0);
     bench.run(PaintAction::Store);
     let offers = |bench: &Bench| {
-        let mut messages = bench.shell.messages.iter().rev();
-        messages.find_map(|message| match message {
-            Message::Notify(notice) => Some(notice.kind),
+        let mut sent = bench.shell.sent.iter().rev();
+        sent.find_map(|action| match action {
+            Action::Notify(notice) => Some(notice.kind),
             _ => None,
         })
     };
@@ -356,13 +356,13 @@ fn a_coat_is_kept_by_name_and_chosen_again() {
         assert!(bench.paint.naming.is_some(), "{name:?}");
     }
     bench.act(PaintAction::Name(Some("booth_3".into())));
-    bench.shell.messages.clear();
+    bench.shell.sent.clear();
     bench.act(PaintAction::SaveCoat);
     assert_eq!(bench.paint.naming, None);
     // The complaints about the other names are removed.
     assert!(matches!(
-        bench.shell.messages[..],
-        [Message::RemoveNotices(NoticeTopic::CoatName), ..]
+        bench.shell.sent[..],
+        [Action::RemoveNotices(NoticeTopic::CoatName), ..]
     ));
     assert!(!bench.paint.design.is_coat_changed());
     assert!(bench.paint.coats.contains(&"booth_3".to_owned()));
@@ -646,8 +646,8 @@ fn another_base_is_checked_written_and_an_undoable_step() {
         (PaintAction::Redo, turned),
     ] {
         bench.act(action);
-        let Some(Message::UseProgramSetup(setup)) = bench.shell.messages.last() else {
-            panic!("{:?}", bench.shell.messages);
+        let Some(Action::UseProgramSetup(setup)) = bench.shell.sent.last() else {
+            panic!("{:?}", bench.shell.sent);
         };
         bench.shell.session.program = setup.clone();
         assert_eq!(bench.shell.session.program, with_output(wanted));
@@ -662,13 +662,13 @@ fn a_notice_that_no_program_can_be_written_goes_once_the_settings_change() {
     bench.shell.session.program.nozzle = String::new();
     bench.settle();
     bench.act(PaintAction::Ask(PaintFile::Program));
-    let Some(Message::Notify(notice)) = bench.shell.messages.last() else {
-        panic!("{:?}", bench.shell.messages);
+    let Some(Action::Notify(notice)) = bench.shell.sent.last() else {
+        panic!("{:?}", bench.shell.sent);
     };
     assert_eq!(notice.topic, NoticeTopic::Program);
     let missing = bench.shell.session.program.nozzle_error();
     let missing = Notice::from(missing.expect("no nozzle"));
-    bench.shell.messages.clear();
+    bench.shell.sent.clear();
     let setup = ProgramSetup {
         nozzle: "kuka 0 0 250 0 -45 0".into(),
         ..bench.shell.session.program.clone()
@@ -676,12 +676,12 @@ fn a_notice_that_no_program_can_be_written_goes_once_the_settings_change() {
     bench.act(PaintAction::SetUp(setup));
     // Also the one of Inspect.
     let [
-        Message::RemoveNotices(NoticeTopic::Program),
-        Message::Retract(gone),
-        Message::UseProgramSetup(_),
-    ] = &bench.shell.messages[..]
+        Action::RemoveNotices(NoticeTopic::Program),
+        Action::Retract(gone),
+        Action::UseProgramSetup(_),
+    ] = &bench.shell.sent[..]
     else {
-        panic!("{:?}", bench.shell.messages);
+        panic!("{:?}", bench.shell.sent);
     };
     assert_eq!(*gone, missing);
 }

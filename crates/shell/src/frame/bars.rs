@@ -1,12 +1,16 @@
-//! The top bar above the workspaces.
+//! The bars around the work: the top bar, and those above and below the operator's view with the parts of this shift, the running
+//! work, and the operator's few controls.
 
-use egui::{Align, Button, Color32, Frame, Layout, Margin, Panel, RichText, Ui, Vec2};
+use egui::{
+    Align, Button, Color32, Frame, Layout, Margin, Panel, RichText, Ui, Vec2, WidgetInfo, vec2,
+};
 
 use crate::{
-    action::{Action, DialogRequest, Effect},
+    action::{Action, DialogRequest},
     cell::{self, RobotAction, RobotCell},
     inspection::{figures::StagePanel, library_cache::LibraryView, source::file_name},
-    session::{Session, WorkspaceKind},
+    roles::RoleAction,
+    session::{Session, ShiftParts, WorkspaceKind},
     source::{
         live::{self, LiveAction},
         source_menu,
@@ -16,10 +20,14 @@ use crate::{
 use ui::{
     language::{Language, described, keys, text},
     task::Running,
-    theme::{Theme, ThemeChoice, font, space},
-    widgets::{NARROW, labelled, shortened, status_label, text_button},
+    theme::{ROUNDING, Theme, ThemeChoice, font, space},
+    widgets::{
+        Mark, NARROW, fixed_panel, labelled, line_mark, shortened, status_label, text_button,
+    },
 };
 
+/// Margins of a bar.
+const MARGIN: Margin = Margin::symmetric(14, 0);
 /// Width of the bar that is left to the status of Live, logical pixels.
 const LIVE_STATUS_WIDTH_PX: f32 = 180.0;
 /// Width below which the running work is not named beside its spinner, logical pixels: most words would be cut.
@@ -59,7 +67,7 @@ pub struct Progress {
 }
 
 /// Draws the top bar.
-pub fn ui(
+pub fn top(
     ui: &mut Ui,
     state: &State,
     robot: &RobotCell,
@@ -67,52 +75,46 @@ pub fn ui(
     actions: &mut Vec<Action>,
 ) {
     let theme = Theme::of(ui);
-    let frame = Frame::new()
-        .fill(theme.panel)
-        .inner_margin(Margin::symmetric(14, 0));
-    Panel::top("top bar")
-        .exact_size(space::TOP_BAR)
-        .resizable(false)
-        .frame(frame)
-        .show(ui, |ui| {
-            ui.horizontal_centered(|ui| {
-                // In a narrow window, the controls and the status of Live need the room of the name.
-                if ui.ctx().content_rect().width() >= NARROW {
-                    let name = RichText::new("Partsight").font(font::body_strong());
-                    ui.label(name);
-                    ui.add_space(space::LARGE);
-                }
-                source_menu::ui(ui, state, actions);
-                robot_button(ui, state, robot, actions);
-                let name = text!("shell-capture");
-                let capture = RichText::new(&name).font(font::body_strong());
-                // The accent marks the next button to press; while a source is followed, there is none.
-                let capture = if state.session.is_live() {
-                    with_key(ui, Button::new(capture), "Space", theme.weak_text)
-                } else {
-                    let capture = Button::new(capture.color(theme.on_accent));
-                    with_key(ui, capture, "Space", theme.on_accent).fill(theme.accent)
-                };
-                if labelled(ui, capture, &name).clicked() {
-                    actions.push(Action::Capture);
-                }
-                live_button(ui, state, actions);
-                let name = text!("shell-open");
-                let open = with_key(ui, Button::new(&*name), "Ctrl O", theme.weak_text);
-                if labelled(ui, open, &name).clicked() {
-                    actions.push(Action::Ask(DialogRequest::Scene));
-                }
-                ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                    settings(ui, state, work.is_some(), actions);
-                    ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                        let session = &state.session;
-                        let shares = work.is_some() || has_live_chip(session);
-                        cell::chip(ui, robot, session, shares);
-                        progress(ui, state, work, actions);
-                    });
+    let panel = Panel::top("top bar").exact_size(space::TOP_BAR);
+    fixed_panel(ui, panel, MARGIN, |ui| {
+        ui.horizontal_centered(|ui| {
+            // In a narrow window, the controls and the status of Live need the room of the name.
+            if ui.ctx().content_rect().width() >= NARROW {
+                let name = RichText::new("Partsight").font(font::body_strong());
+                ui.label(name);
+                ui.add_space(space::LARGE);
+            }
+            source_menu::ui(ui, state, actions);
+            robot_button(ui, state, robot, actions);
+            let name = text!("shell-capture");
+            let capture = RichText::new(&name).font(font::body_strong());
+            // The accent marks the next button to press; while a source is followed, there is none.
+            let capture = if state.session.is_live() {
+                with_key(ui, Button::new(capture), "Space", theme.weak_text)
+            } else {
+                let capture = Button::new(capture.color(theme.on_accent));
+                with_key(ui, capture, "Space", theme.on_accent).fill(theme.accent)
+            };
+            if labelled(ui, capture, &name).clicked() {
+                actions.push(Action::Capture);
+            }
+            live_button(ui, state, actions);
+            let name = text!("shell-open");
+            let open = with_key(ui, Button::new(&*name), "Ctrl O", theme.weak_text);
+            if labelled(ui, open, &name).clicked() {
+                actions.push(Action::Ask(DialogRequest::Scene));
+            }
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                settings(ui, state, work.is_some(), actions);
+                ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                    let session = &state.session;
+                    let shares = work.is_some() || has_live_chip(session);
+                    cell::chip(ui, robot, session, shares);
+                    progress(ui, state, work, actions);
                 });
             });
         });
+    });
 }
 
 /// True while the status of Live is in the bar; in Inspect it is on the verdict card.
@@ -171,7 +173,7 @@ fn robot_button(ui: &mut Ui, state: &State, robot: &RobotCell, actions: &mut Vec
         (None, None) => text!("shell-not-calibrated"),
     };
     if labelled(ui, button, &name).on_hover_text(says).clicked() {
-        actions.push(Action::Make(Effect::Robot(RobotAction::Toggle)));
+        actions.push(Action::Robot(RobotAction::Toggle));
     }
 }
 
@@ -214,7 +216,7 @@ fn settings(ui: &mut Ui, state: &State, is_at_work: bool, actions: &mut Vec<Acti
 }
 
 /// Draws the menu of languages, each by its own name.
-pub(super) fn language_menu(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
+fn language_menu(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
     let now = state.session.language;
     let menu = ui.menu_button(format!("{} ▼", now.sign()), |ui| {
         for language in Language::ALL {
@@ -289,12 +291,7 @@ fn library_menu(
 }
 
 /// Draws the running work and its cancel button.
-pub(super) fn progress(
-    ui: &mut Ui,
-    state: &State,
-    work: Option<Progress>,
-    actions: &mut Vec<Action>,
-) {
+fn progress(ui: &mut Ui, state: &State, work: Option<Progress>, actions: &mut Vec<Action>) {
     let theme = Theme::of(ui);
     let Some(Progress { running, cancel }) = work else {
         if has_live_chip(&state.session) {
@@ -333,6 +330,199 @@ pub(super) fn progress(
         spinner.on_hover_text(text);
     } else {
         status_label(ui, &text, font::body(), theme.weak_text);
+    }
+}
+
+/// Height of the lower bar, logical pixels.
+const LOWER: f32 = 76.0;
+/// Height of its buttons, logical pixels.
+const BUTTON: f32 = 52.0;
+
+/// Draws both bars.
+pub fn operators(
+    ui: &mut Ui,
+    state: &State,
+    robot: &RobotCell,
+    work: Option<Progress>,
+    actions: &mut Vec<Action>,
+) {
+    let panel = Panel::top("operator's upper bar").exact_size(space::TOP_BAR);
+    fixed_panel(ui, panel, MARGIN, |ui| {
+        ui.horizontal_centered(|ui| upper(ui, state, robot, work, actions));
+    });
+    let panel = Panel::bottom("operator's lower bar").exact_size(LOWER);
+    fixed_panel(ui, panel, MARGIN, |ui| {
+        ui.horizontal_centered(|ui| lower(ui, state, actions));
+    });
+}
+
+fn upper(
+    ui: &mut Ui,
+    state: &State,
+    robot: &RobotCell,
+    work: Option<Progress>,
+    actions: &mut Vec<Action>,
+) {
+    ui.label(RichText::new("Partsight").font(font::body_strong()));
+    ui.add_space(space::LARGE);
+    // Otherwise the row would be as high as the bar.
+    ui.horizontal(|ui| counts(ui, &state.session.shift));
+    ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+        let key = RichText::new(keys("Ctrl K")).small();
+        let name = text!("shell-engineers-view");
+        let engineer = Button::new(&*name).shortcut_text(key.weak());
+        let says = match state.roles.pin {
+            Some(_) => text!("operator-locked-says"),
+            None => text!("shell-to-engineer"),
+        };
+        if labelled(ui, engineer, &name).on_hover_text(says).clicked() {
+            actions.push(Action::Role(RoleAction::Switch));
+        }
+        let history = WorkspaceKind::History.title();
+        if text_button(ui, &history)
+            .on_hover_text(text!("operator-history-says"))
+            .clicked()
+        {
+            actions.push(Action::GoTo(WorkspaceKind::History));
+        }
+        language_menu(ui, state, actions);
+        ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+            let session = &state.session;
+            not_recorded(ui, session);
+            cell::chip(
+                ui,
+                robot,
+                session,
+                work.is_some() || session.is_history_failing,
+            );
+            progress(ui, state, work, actions);
+        });
+    });
+}
+
+/// Draws whether inspections cannot be written.
+fn not_recorded(ui: &mut Ui, session: &Session) {
+    if session.is_history_failing {
+        let theme = Theme::of(ui);
+        line_mark(ui, 16.0, 8.0, Mark::Look);
+        let text = RichText::new(text!("operator-not-recorded")).color(theme.warning);
+        let label = ui.add(egui::Label::new(text).truncate());
+        label.on_hover_text(text!("operator-not-recorded-says"));
+    }
+}
+
+/// Draws the number of parts of this shift before its source, and how many were accepted.
+fn counts(ui: &mut Ui, shift: &ShiftParts) {
+    let theme = Theme::of(ui);
+    let (Some(since), Some(source)) = (&shift.since, &shift.source) else {
+        return;
+    };
+    let since = text!(
+        "operator-shift-since",
+        time = since.strftime("%H:%M").to_string()
+    );
+    let source = shortened(&source_menu::now(source), 20);
+    let label = RichText::new(format!("{since}\n{source}")).small().weak();
+    ui.label(label).on_hover_text(text!("operator-shift-says"));
+    let num = shift.num_ok + shift.num_not_ok;
+    let chips = [
+        (None, text!("operator-num-parts", num = num)),
+        (
+            Some(Mark::Good),
+            text!("operator-num-ok", num = shift.num_ok),
+        ),
+        (
+            Some(Mark::Bad),
+            text!("operator-num-not-ok", num = shift.num_not_ok),
+        ),
+    ];
+    for (sign, text) in chips {
+        let chip = Frame::new()
+            .fill(theme.control)
+            .stroke(theme.edge_stroke())
+            .corner_radius(ROUNDING)
+            .inner_margin(Margin::symmetric(10, 5))
+            .show(ui, |ui| {
+                ui.spacing_mut().interact_size.y = 0.0;
+                if let Some(sign) = sign {
+                    line_mark(ui, 16.0, 8.0, sign);
+                }
+                ui.label(RichText::new(text).font(font::body_strong()));
+            });
+        chip.response.on_hover_text(text!("operator-shift-says"));
+    }
+}
+
+fn lower(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
+    let theme = Theme::of(ui);
+    let text = |text: &str| RichText::new(text).font(font::verdict());
+    let key = |text: &str| RichText::new(text).small();
+    let is_live = state.session.is_live();
+    let (name, space) = (text!("shell-capture"), keys("Space"));
+    // The accent marks the next button to press; while a source is followed, there is none.
+    let capture = if is_live {
+        Button::new(text(&name)).shortcut_text(key(&space).weak())
+    } else {
+        Button::new(text(&name).color(theme.on_accent))
+            .shortcut_text(key(&space).color(theme.on_accent))
+            .fill(theme.accent)
+    };
+    let capture = ui.add(capture.min_size(vec2(200.0, BUTTON)));
+    capture.widget_info(|| WidgetInfo::labeled(egui::Role::Button, true, &name));
+    if capture.clicked() {
+        actions.push(Action::Capture);
+    }
+    let [strong, weak] = if is_live {
+        [theme.on_accent; 2]
+    } else {
+        [theme.text, theme.weak_text]
+    };
+    let follow = text!("shell-live");
+    let live = Button::selectable(is_live, text(&follow).color(strong))
+        .frame_when_inactive(true)
+        .shortcut_text(key("L").color(weak))
+        .min_size(vec2(110.0, BUTTON));
+    let live = ui.add(live);
+    live.widget_info(|| WidgetInfo::selected(egui::Role::Button, true, is_live, &follow));
+    let says = if is_live {
+        text!("operator-stop-live-says")
+    } else {
+        text!("operator-live-says")
+    };
+    if live.on_hover_text(says).clicked() {
+        actions.push(Action::Live(LiveAction::Toggle));
+    }
+    let name = text!("operator-wrong-part");
+    let wrong = Button::new(text(&name)).min_size(vec2(150.0, BUTTON));
+    // While the part moves, it may be another one.
+    let is_current = state.session.current_result().is_some();
+    let wrong = ui.add_enabled(is_current, wrong);
+    wrong.widget_info(|| WidgetInfo::labeled(egui::Role::Button, is_current, &name));
+    if wrong
+        .on_hover_text(text!("operator-wrong-part-says"))
+        .on_disabled_hover_text(text!("operator-wrong-part-not-now"))
+        .clicked()
+    {
+        actions.push(Action::WrongPart);
+    }
+    ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+        source(ui, &state.session);
+    });
+}
+
+/// Draws the source, and whether frames arrive.
+fn source(ui: &mut Ui, session: &Session) {
+    let text = |text: String| egui::Label::new(RichText::new(text).weak());
+    if session.is_live() {
+        let (sign, words) = live::words(session);
+        ui.add(text(words).truncate());
+        line_mark(ui, 16.0, 8.0, sign);
+    } else {
+        let source = text!(
+            "operator-source",
+            source = source_menu::now(&session.source)
+        );
+        ui.add(text(source).truncate());
     }
 }
 

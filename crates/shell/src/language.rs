@@ -1,4 +1,6 @@
-//! Texts about results in the language of the window.
+//! The texts of results, the history and robots in the window's language, and lengths and angles in its units.
+//!
+//! Each kind of result is matched exhaustively, so that a new one does not compile without its text.
 
 use crate::inspection::source::CELL_SOURCE;
 use capture::SourceSpec;
@@ -6,11 +8,14 @@ use inspection::{
     library::Side,
     pipeline::{AS_IN_THE_PAPER, Identification, RecipeLabel, RefusalKind},
 };
-use records::history::{SceneTitle, StoredVerdict, Summary};
+use records::history::{SceneTitle, ServoRun, ServoTargetKind, StoredVerdict, Summary};
+use robot::Convention;
+use servo::ServoState;
 use simulate::ObjectKind;
+use station::robot_file::Unchecked;
 use ui::{
-    language::{Language, described, text},
-    widgets::sentence,
+    language::{Language, Message, attribute, described, text},
+    widgets::{Mark, sentence},
 };
 
 /// Says whether an inspection was accepted, for whatever reason it was not.
@@ -172,11 +177,170 @@ pub(crate) fn object(kind: ObjectKind) -> String {
     }
 }
 
+/// Describes order, axes and units of a convention's numbers.
+pub fn convention_meaning(convention: Convention) -> String {
+    attribute(&convention, "meaning")
+}
+
+/// Lists what was not checked; `None` if everything was.
+pub fn not_checked(unchecked: &[Unchecked]) -> Option<String> {
+    let words: Vec<String> = unchecked.iter().map(described).collect();
+    let what = words.join("; ");
+    let message = Message::new("not-checked").with("what", &*what);
+    (!what.is_empty()).then(|| sentence(&described(&message)))
+}
+
+/// Names what a run was to reach.
+pub fn target_title(target: ServoTargetKind) -> String {
+    match target {
+        ServoTargetKind::StandardPosition => text!("servoing-standard-position"),
+        ServoTargetKind::CameraPose => text!("servoing-camera-pose"),
+        ServoTargetKind::PathStart => text!("servoing-path-start"),
+    }
+}
+
+/// Says what a run is doing.
+pub fn state_title(state: ServoState) -> String {
+    match state {
+        ServoState::Looking => text!("servoing-looking"),
+        ServoState::Moving => text!("servoing-moving"),
+        ServoState::Waiting => text!("servoing-waiting"),
+        ServoState::Holding => text!("servoing-holding"),
+        ServoState::Checking => text!("servoing-checking"),
+    }
+}
+
+/// Says how a run ended, with its mark.
+pub fn end_title(run: &ServoRun) -> (Mark, String) {
+    match &run.stopped {
+        None if run.is_approximate => (Mark::Look, text!("servoing-arrived-approximately")),
+        None => (Mark::Good, text!("servoing-arrived")),
+        Some(_) => (Mark::Bad, text!("servoing-stopped")),
+    }
+}
+
+/// Writes a shift and an angle; `None` if they are not known.
+pub fn shift_and_turn(
+    shift_m: Option<f64>,
+    turn_rad: Option<f64>,
+    units: UnitSystem,
+) -> Option<String> {
+    Some(format!(
+        "{} · {}",
+        units.length(shift_m?),
+        units.angle(turn_rad?)
+    ))
+}
+
+/// Units shown to the user.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum UnitSystem {
+    /// Millimetres and degrees.
+    #[default]
+    MillimetresDegrees,
+    /// Metres and radians.
+    MetresRadians,
+}
+
+impl UnitSystem {
+    /// Symbols of the units.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::MillimetresDegrees => "mm · °",
+            Self::MetresRadians => "m · rad",
+        }
+    }
+
+    /// Returns the other system.
+    #[must_use]
+    pub fn other(self) -> Self {
+        match self {
+            Self::MillimetresDegrees => Self::MetresRadians,
+            Self::MetresRadians => Self::MillimetresDegrees,
+        }
+    }
+
+    /// Formats a length given in metres.
+    pub fn length(self, metres: f64) -> String {
+        match self {
+            Self::MillimetresDegrees => format!("{} mm", minus(metres * 1000.0, 1)),
+            Self::MetresRadians => format!("{} m", minus(metres, 4)),
+        }
+    }
+
+    /// Formats an area given in square metres.
+    pub fn area(self, square_metres: f64) -> String {
+        match self {
+            Self::MillimetresDegrees => format!("{} cm²", minus(square_metres * 1e4, 0)),
+            Self::MetresRadians => format!("{} m²", minus(square_metres, 2)),
+        }
+    }
+
+    /// Factor from metres, unit symbol and decimals for lengths on an axis.
+    pub fn length_axis(self) -> (f64, &'static str, usize) {
+        match self {
+            Self::MillimetresDegrees => (1000.0, "mm", 0),
+            Self::MetresRadians => (1.0, "m", 3),
+        }
+    }
+
+    /// Factor from radians, unit symbol and decimals for angles on an axis.
+    pub fn angle_axis(self) -> (f64, &'static str, usize) {
+        match self {
+            Self::MillimetresDegrees => (1.0_f64.to_degrees(), "°", 0),
+            Self::MetresRadians => (1.0, "rad", 2),
+        }
+    }
+
+    /// Formats a difference of lengths given in metres, with its sign.
+    pub fn signed_length(self, metres: f64) -> String {
+        match self {
+            Self::MillimetresDegrees => format!("{} mm", signed(metres * 1000.0, 1)),
+            Self::MetresRadians => format!("{} m", signed(metres, 4)),
+        }
+    }
+
+    /// Formats the magnitude of an angle given in radians.
+    pub fn angle(self, radians: f64) -> String {
+        match self {
+            Self::MillimetresDegrees => format!("{:.2}°", radians.to_degrees()),
+            Self::MetresRadians => format!("{radians:.4} rad"),
+        }
+    }
+
+    /// Formats an angle given in radians, with its sign.
+    pub fn signed_angle(self, radians: f64) -> String {
+        match self {
+            Self::MillimetresDegrees => format!("{}°", signed(radians.to_degrees(), 2)),
+            Self::MetresRadians => format!("{} rad", signed(radians, 4)),
+        }
+    }
+}
+
+/// Formats a number, with a minus sign (U+2212) if it is negative.
+fn minus(value: f64, decimals: usize) -> String {
+    let text = signed(value, decimals);
+    text.strip_prefix('+').map(str::to_owned).unwrap_or(text)
+}
+
+/// Formats a number with its sign, using U+2212 for minus; no sign if it rounds to zero.
+fn signed(value: f64, decimals: usize) -> String {
+    let digits = format!("{:.decimals$}", value.abs());
+    if digits.bytes().all(|b| matches!(b, b'0' | b'.')) {
+        digits
+    } else if value < 0.0 {
+        format!("\u{2212}{digits}")
+    } else {
+        format!("+{digits}")
+    }
+}
+
 #[cfg(test)]
 mod tests {
+    use super::*;
     use std::collections::BTreeSet;
 
-    use super::*;
     use inspection::{
         fixtures::rejections,
         pipeline::{Refusal, Rejection},
@@ -415,5 +579,27 @@ mod tests {
         };
         assert!(!says(0.004).contains("Fender"));
         assert!(says(0.3).contains("Fender"));
+    }
+
+    #[test]
+    fn what_was_not_checked_is_listed() {
+        assert_eq!(not_checked(&[]), None);
+        let both = [Unchecked::Arm, Unchecked::Accelerations("rail")];
+        let expected = "Not checked: reach and collisions; acceleration of the rail";
+        assert_eq!(not_checked(&both).as_deref(), Some(expected));
+    }
+
+    #[test]
+    fn a_person_reads_signs_and_units() {
+        let mm = UnitSystem::MillimetresDegrees;
+        assert_eq!(mm.signed_length(0.0423), "+42.3 mm");
+        assert_eq!(mm.signed_length(-0.0081), "\u{2212}8.1 mm");
+        assert_eq!(mm.signed_length(-0.000_01), "0.0 mm");
+        assert_eq!(mm.signed_angle(std::f64::consts::FRAC_PI_2), "+90.00°");
+        assert_eq!(UnitSystem::MetresRadians.signed_length(0.0423), "+0.0423 m");
+        assert_eq!(mm.length(-0.0481), "\u{2212}48.1 mm");
+        assert_eq!(mm.length(0.15), "150.0 mm");
+        assert_eq!(mm.angle(0.1), "5.73°");
+        assert_eq!(mm.other().other(), mm);
     }
 }
