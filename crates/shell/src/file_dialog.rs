@@ -458,12 +458,12 @@ pub fn ui(ctx: &egui::Context, lock: &DialogLock) {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use std::{cell::RefCell, future::poll_fn, rc::Rc, thread};
 
     use egui::Role;
     use egui_kittest::{Harness, kittest::Queryable as _};
 
+    use super::*;
     use crate::trace::entry::{self, KeyTarget};
 
     /// Makes a dialog that closes by itself after this time with nothing chosen.

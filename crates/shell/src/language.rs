@@ -338,9 +338,9 @@ fn signed(value: f64, decimals: usize) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use std::collections::BTreeSet;
 
+    use super::*;
     use inspection::{
         fixtures::rejections,
         pipeline::{Refusal, Rejection},

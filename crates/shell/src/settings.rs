@@ -415,9 +415,9 @@ impl Memory {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use std::fs;
 
+    use super::*;
     use crate::inspection::source::ScanFiles;
     use geometry::units::Metres;
     use robot::program::ProgramParams;

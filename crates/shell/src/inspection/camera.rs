@@ -316,9 +316,9 @@ fn name() -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use nalgebra::Point3;
 
+    use super::*;
     use capture::{WatchedFrom, WatchedSpec};
     use files::save_cloud;
     use geometry::{

@@ -526,14 +526,13 @@ fn no_library(folder: &LibraryFolder) -> Option<UserError> {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use std::{
         fs::File,
         time::{Duration, SystemTime},
     };
 
+    use super::*;
     use ::inspection::fixtures::copy_library;
-
     use inspection::pipeline::Unwatched;
 
     #[test]

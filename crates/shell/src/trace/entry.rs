@@ -407,11 +407,11 @@ fn acts_on_text(event: &egui::Event) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use std::sync::Arc;
 
     use egui::Modifiers;
 
+    use super::*;
     use crate::{
         inspection::{inspected::inspected_cell, source::CellChoice},
         session::Shown,

@@ -482,9 +482,9 @@ fn part(
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use std::path::Path;
 
+    use super::*;
     use crate::{
         inspection::{inspected::inspected_cell, source::CellChoice},
         session::Shown,

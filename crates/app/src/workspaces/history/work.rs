@@ -308,9 +308,9 @@ fn in_words(kept: &PastCases<'_>) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use std::time::Instant;
 
+    use super::*;
     use records::fixtures::history_entry;
 
     #[test]

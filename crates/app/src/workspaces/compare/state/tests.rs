@@ -1,4 +1,4 @@
-use std::path::Path;
+use std::{path::Path, time::Instant};
 
 use jiff::Timestamp;
 
@@ -10,9 +10,12 @@ use records::{
     cases::{
         Calibration, CaseDescription, CaseMeta, Confusion, FoundVerdict, SCHEMA_VERSION, TradeOff,
     },
-    history::FrameRecord,
+    history::{FILE, FrameRecord},
 };
-use shell::workspace::TestShell;
+use shell::{
+    inspection::{inspected::inspected_cell, source::CellChoice},
+    workspace::TestShell,
+};
 use stages::scene::{PictureEdge, scene_from_cloud};
 
 fn kept(name: &str) -> KeptCase {
@@ -653,4 +656,61 @@ fn the_copy_of_a_recipe_with_a_long_name_has_a_shorter_one() {
         let name = format!("{}_{copy}", "x".repeat(PartName::MAX_LENGTH - 2));
         assert!(bench.compare.recipes.has(&name), "{name}");
     }
+}
+
+fn inspected() -> Inspected {
+    inspected_cell(CellChoice::Empty, 1)
+}
+
+fn about(inspected: &Inspected, remark: &str) -> CaseDescription {
+    CaseDescription {
+        remark: remark.into(),
+        ..CaseDescription::of(&inspected.entry.record, Truth::Nothing)
+    }
+}
+
+#[test]
+fn a_case_labels_its_part_and_shares_a_remark_with_it() {
+    let home = tempfile::tempdir().expect("a folder");
+    let folder = CaseFolder::at(home.path().join("cases"));
+    let history = HistoryBuffer::new(Some(home.path().join("history")));
+    let inspected = inspected();
+    history.add(1, inspected.entry.clone(), Instant::now());
+    let keep = |remark: &str| {
+        let about = about(&inspected, remark);
+        let (kept, problem) = keep_case(&folder, &inspected, about, &history).expect("kept");
+        assert!(problem.is_none(), "{problem:?}");
+        let row = history.row(1).expect("asked").expect("there").summary;
+        assert_eq!(row.label, Some(Truth::Nothing));
+        (kept.meta.about.remark, row.remark)
+    };
+    let both = |case: &str, row: &str| (case.to_owned(), row.to_owned());
+    assert_eq!(keep(""), both("", ""));
+    assert_eq!(keep("swept"), both("swept", "swept"));
+    // A remark in the history is not overwritten.
+    assert_eq!(keep("dark"), both("dark", "swept"));
+    assert_eq!(keep(""), both("swept", "swept"));
+}
+
+#[test]
+fn what_the_history_does_not_have_or_cannot_take_is_kept_all_the_same() {
+    let home = tempfile::tempdir().expect("a folder");
+    let folder = CaseFolder::at(home.path().join("cases"));
+    let inspected = inspected();
+    let keep = |history: &HistoryBuffer| {
+        keep_case(&folder, &inspected, about(&inspected, "dark"), history).expect("kept")
+    };
+    let (kept, problem) = keep(&HistoryBuffer::default());
+    assert!(problem.is_none(), "{problem:?}");
+    assert_eq!(kept.meta.about.remark, "dark");
+
+    let place = home.path().join("history");
+    let history = HistoryBuffer::new(Some(place.clone()));
+    history.add(1, inspected.entry.clone(), Instant::now());
+    let file = rusqlite::Connection::open(place.join(FILE)).expect("opened");
+    let broken = file.execute_batch("ALTER TABLE inspection RENAME TO gone");
+    broken.expect("renamed");
+    let (kept, problem) = keep(&history);
+    assert!(problem.is_some());
+    assert_eq!(kept.name, "simulated_frame_1_2");
 }
