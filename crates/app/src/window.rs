@@ -264,10 +264,8 @@ impl Window {
                     workspace.on_event(&Event::EngineerIn, cx);
                 });
             }
-            Action::Close => {
-                if self.may_close() {
-                    ctx.send_viewport_cmd(egui::ViewportCommand::Close);
-                }
+            Action::Close if self.may_close() => {
+                ctx.send_viewport_cmd(egui::ViewportCommand::Close);
             }
             Action::CopyText(text) => ctx.copy_text(text),
             // The state carries out all others.

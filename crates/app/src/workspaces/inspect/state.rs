@@ -437,6 +437,7 @@ fn enrol_shown(cx: &mut ShellContext<'_>) {
 
 /// An action in the workspace.
 #[derive(Clone, Debug)]
+#[expect(clippy::large_enum_variant, reason = "few are made, and none is kept")]
 pub enum InspectAction {
     /// Show or hide this in the view.
     Toggle(ViewPart),
