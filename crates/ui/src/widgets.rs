@@ -13,7 +13,10 @@ use egui::{
 };
 use image::RgbImage;
 
-use super::theme::{ROUNDING, Theme, font, space};
+use super::{
+    theme::{ROUNDING, Theme, font, space},
+    user_error::UserError,
+};
 
 /// Width of the window, logical pixels, below which panels are narrow and bars have no room for keys.
 pub const NARROW: f32 = 1100.0;
@@ -253,6 +256,28 @@ pub fn button_if(ui: &mut Ui, can: bool, text: &str) -> egui::Response {
     let response = ui.add_enabled(can, button.min_size(Vec2::splat(space::TARGET)));
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, can, text));
     response
+}
+
+/// Draws a button that chooses one of several values.
+pub fn value_button<T: PartialEq>(ui: &mut Ui, value: &mut T, this: T, text: String) {
+    let is_chosen = *value == this;
+    let button = Button::selectable(is_chosen, text)
+        .frame_when_inactive(true)
+        .min_size(vec2(space::TARGET, space::TARGET));
+    if ui.add(button).clicked() {
+        *value = this;
+    }
+}
+
+/// Draws an error or a doubt, with a sign before it and the advice below.
+pub fn error_row(ui: &mut Ui, sign: Mark, error: &UserError) {
+    ui.horizontal_top(|ui| {
+        line_mark(ui, 18.0, 7.0, sign);
+        ui.vertical(|ui| {
+            ui.label(sentence(&error.what));
+            ui.weak(&error.advice);
+        });
+    });
 }
 
 /// Draws a button whose accessible name is `label` alone, whatever shortcut it shows.

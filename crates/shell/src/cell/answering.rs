@@ -1,5 +1,5 @@
 //! Answers robots from the window: runs the server of `partsight serve` with the source that the window follows as its camera,
-//! and with the window's library, recipe and calibration.
+//! and with the window's library, recipe and calibration; and the page of the dialog about that.
 
 mod rows;
 mod work;
@@ -12,23 +12,37 @@ use std::{
     time::{Duration, Instant},
 };
 
-use self::work::{AnswerInputs, AnswerRequest, answer};
-pub use self::work::{AnsweringStatus, LastAnswer};
+use egui::{Label, RichText, Role, TextEdit, Ui, WidgetInfo};
+use jiff::{Timestamp, tz::TimeZone};
+
 use crate::{
     action::Action,
+    cell::{
+        answering::work::{AnswerInputs, AnswerRequest, answer},
+        dialog_state::{RobotAction, RobotDialog, RobotQuestion},
+        setup::AnswerSetup,
+        state::RobotCell,
+    },
     notice::{Notice, NoticeTopic},
     session::Session,
     workspace::ShellContext,
 };
-use geometry::error::lock;
-use robot::RobotFrame;
-use serve::Listener;
-use ui::{
-    language::text,
-    task::{Task, TaskRunner},
-    user_error::UserError,
-    widgets::Mark,
+use geometry::error::{Advice as _, lock};
+use robot::{Convention, RobotFrame};
+use serve::{
+    Answer, ClientEvent, ClientNews, ListenAddress, Listener, PoseKind, Protocol, parse_address,
 };
+use ui::{
+    language::{described, text, what_and_advice},
+    task::{Task, TaskRunner},
+    theme::space,
+    user_error::UserError,
+    widgets::{
+        self, Mark, drop_down, error_row, heading, line_mark, row, text_button, value_button,
+    },
+};
+
+pub use self::work::{AnsweringStatus, LastAnswer};
 
 /// Time after which a server that failed is started again.
 const RETRY: Duration = Duration::from_secs(3);
@@ -219,4 +233,297 @@ fn wanted(session: &Session) -> Option<(Listener, Arc<RobotFrame>)> {
     let robot = session.robot.as_ref().filter(|_| setup.is_on)?;
     let listener = setup.listener().ok()?;
     Some((listener, Arc::clone(robot)))
+}
+
+/// Width of a bar, logical pixels, below which the chip is only its sign; the second while the bar also shows running work.
+const ROOM: [f32; 2] = [180.0, 480.0];
+
+/// Draws the status in a bar, while answering is on.
+pub(crate) fn chip(ui: &mut Ui, robot: &RobotCell, session: &Session, is_at_work: bool) {
+    let Some((sign, words)) = robot.answering().words(session) else {
+        return;
+    };
+    ui.add_space(space::SMALL);
+    let response = line_mark(ui, 16.0, 7.5, sign);
+    let room = if is_at_work { ROOM[1] } else { ROOM[0] };
+    if ui.available_width() > room {
+        let text = RichText::new(&words);
+        ui.add(Label::new(text).truncate());
+    } else {
+        response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &words));
+    }
+    response.on_hover_text(words);
+}
+
+/// Draws the page of the dialog.
+pub(super) fn page(
+    ui: &mut Ui,
+    robot: &RobotCell,
+    session: &Session,
+    dialog: &mut RobotDialog,
+    caused: &mut Vec<RobotAction>,
+) {
+    let says = RichText::new(text!("robot-answer-says")).small();
+    ui.label(says.weak());
+    ui.add_space(space::SMALL);
+    fields(ui, dialog);
+    let typed = typed(dialog);
+    let listener = typed.as_ref().map(|setup| (setup, setup.listener()));
+    match &listener {
+        Ok((_, Ok(listener))) => {
+            if let Some(open) = listener.doubt() {
+                error_row(ui, Mark::Look, &what_and_advice(&open).into());
+            }
+        }
+        Ok((_, Err(error))) => {
+            let problem = UserError {
+                what: error.to_string(),
+                advice: text!("robot-other-convention"),
+            };
+            error_row(ui, Mark::Bad, &problem);
+        }
+        Err(problem) => error_row(ui, Mark::Bad, problem),
+    }
+    ui.add_space(space::SMALL);
+    let wanted = listener
+        .ok()
+        .and_then(|(setup, listener)| listener.is_ok().then_some(*setup));
+    buttons(ui, session, wanted, dialog, caused);
+    state(ui, robot, session);
+    numbers(ui, session);
+}
+
+/// Draws the fields for protocol, address and pose.
+fn fields(ui: &mut Ui, dialog: &mut RobotDialog) {
+    ui.horizontal_wrapped(|ui| {
+        ui.label(text!("robot-protocol"));
+        for protocol in Protocol::ALL {
+            value_button(ui, &mut dialog.protocol, protocol, protocol.name().into());
+        }
+    });
+    ui.horizontal(|ui| {
+        let label = ui.label(text!("robot-port"));
+        ui.add(TextEdit::singleline(&mut dialog.address).desired_width(200.0))
+            .labelled_by(label.id);
+    });
+    ui.horizontal_wrapped(|ui| {
+        ui.label(text!("shell-pose"));
+        for (pose, text) in [
+            (PoseKind::RobotFromPart, text!("robot-pose-of-part")),
+            (PoseKind::RobotOffset, text!("robot-pose-offset")),
+        ] {
+            value_button(ui, &mut dialog.pose, pose, text);
+        }
+    });
+    ui.horizontal(|ui| {
+        ui.label(text!("robot-poses-as"));
+        if let Some(own) = dialog.protocol.own_convention() {
+            ui.label(described(&own));
+            return;
+        }
+        let title = described(&dialog.answered_in);
+        let label = text!("robot-answered-in", convention = &title);
+        drop_down(ui, &label, &title, 240.0, |ui| {
+            for other in Convention::ALL {
+                let title = described(&other);
+                ui.selectable_value(&mut dialog.answered_in, other, title);
+            }
+        });
+    });
+}
+
+/// Returns the settings as they were typed and chosen, with answering on.
+fn typed(dialog: &RobotDialog) -> Result<AnswerSetup, UserError> {
+    let text = dialog.address.trim();
+    let address = parse_address(text).map_err(|_no_address| UserError {
+        what: text!("robot-no-address", text = text),
+        advice: text!("robot-no-address-advice"),
+    })?;
+    let at = ListenAddress {
+        protocol: dialog.protocol,
+        address,
+    };
+    Ok(AnswerSetup {
+        is_on: true,
+        at,
+        pose: dialog.pose,
+        convention: dialog.answered_in,
+    })
+}
+
+fn buttons(
+    ui: &mut Ui,
+    session: &Session,
+    wanted: Option<AnswerSetup>,
+    dialog: &mut RobotDialog,
+    caused: &mut Vec<RobotAction>,
+) {
+    let now = session.answering;
+    let changed = wanted.filter(|setup| now.is_on && *setup != now);
+    let changes_poses = changed.is_some_and(|setup| setup.changes_poses(&now));
+    let is_changing = dialog.question == Some(RobotQuestion::ChangeAnswers);
+    if is_changing && !changes_poses {
+        dialog.question = None;
+    }
+    let is_changing = is_changing && changes_poses;
+    if is_changing {
+        let asked = UserError {
+            what: text!("robot-change-poses"),
+            advice: text!("robot-change-poses-advice"),
+        };
+        error_row(ui, Mark::Look, &asked);
+    }
+    let mut act = |setup| caused.push(RobotAction::Answer(setup));
+    ui.horizontal(|ui| {
+        if !now.is_on {
+            let can = wanted.is_some() && session.robot.is_some();
+            let is_pressed = widgets::default_button(ui, &text!("robot-turn-on"), can);
+            if let (true, Some(setup)) = (is_pressed, wanted) {
+                act(setup);
+            }
+            return;
+        }
+        match changed {
+            Some(setup) if is_changing => {
+                if text_button(ui, &text!("robot-change-poses-do")).clicked() {
+                    dialog.question = None;
+                    act(setup);
+                }
+                if widgets::default_button(ui, &text!("robot-change-poses-not"), true) {
+                    dialog.question = None;
+                    dialog.protocol = now.at.protocol;
+                    dialog.pose = now.pose;
+                    dialog.answered_in = now.convention;
+                }
+            }
+            Some(setup) if widgets::default_button(ui, &text!("robot-use-it"), true) => {
+                if changes_poses {
+                    dialog.question = Some(RobotQuestion::ChangeAnswers);
+                } else {
+                    act(setup);
+                }
+            }
+            _ => {}
+        }
+        if text_button(ui, &text!("robot-turn-off")).clicked() {
+            act(AnswerSetup {
+                is_on: false,
+                ..now
+            });
+        }
+    });
+}
+
+/// Draws whether robots are answered, and if not, why.
+fn state(ui: &mut Ui, robot: &RobotCell, session: &Session) {
+    let answering = robot.answering();
+    ui.add_space(space::SMALL);
+    if session.robot.is_none() {
+        let nowhere = UserError {
+            what: text!("robot-not-calibrated"),
+            advice: text!("robot-calibrate-first"),
+        };
+        error_row(ui, Mark::Look, &nowhere);
+    }
+    let Some((sign, what)) = answering.words(session) else {
+        return;
+    };
+    let advice = match sign {
+        Mark::Look if session.source.followed().is_none() => text!("live-cannot-advice"),
+        Mark::Look => text!("robot-answers-without-frames-advice"),
+        Mark::Good | Mark::Known | Mark::Bad | Mark::Open | Mark::Runs => String::new(),
+    };
+    match answering.problem() {
+        Some(problem) => error_row(ui, Mark::Bad, problem),
+        None => error_row(ui, sign, &UserError { what, advice }),
+    }
+    if let Some(status) = answering.status() {
+        figures(ui, status);
+    }
+}
+
+/// Draws the address, the connections and the last answer.
+fn figures(ui: &mut Ui, status: &AnsweringStatus) {
+    row(ui, &text!("robot-listens-at"), &status.at.to_string());
+    let clients = status.num_clients.to_string();
+    row(ui, &text!("robot-clients"), &clients);
+    if let Some(event) = &status.client {
+        client(ui, event);
+    }
+    let last = match &status.last {
+        Some(last) => in_words(last),
+        None => text!("robot-no-trigger"),
+    };
+    row(ui, &text!("robot-last-trigger"), &last);
+    if let Some(problem) = &status.problem {
+        error_row(ui, Mark::Bad, problem);
+    }
+}
+
+/// Draws the last event of a connection.
+fn client(ui: &mut Ui, event: &ClientEvent) {
+    let peer = event.peer.to_string();
+    let name = text!("robot-last-client");
+    match &event.news {
+        ClientNews::Connected => row(ui, &name, &text!("robot-client-connected", peer = peer)),
+        ClientNews::Left => row(ui, &name, &text!("robot-client-left", peer = peer)),
+        ClientNews::TurnedAway => {
+            let full = UserError {
+                what: text!("robot-client-turned-away", peer = peer),
+                advice: text!("robot-client-turned-away-advice"),
+            };
+            error_row(ui, Mark::Look, &full);
+        }
+        ClientNews::BadRequest(why) => {
+            let bad = UserError {
+                what: format!("{peer}: {why}"),
+                advice: why.advice(),
+            };
+            error_row(ui, Mark::Look, &bad);
+        }
+        // Only HTTP has tokens.
+        ClientNews::WrongToken => {}
+    }
+}
+
+/// Describes the last trigger and its answer in the terms of the protocol.
+fn in_words(last: &LastAnswer) -> String {
+    let LastAnswer { at, answer } = last;
+    let at = clock(*at);
+    let verdict = match answer.problem.reason.as_str() {
+        "" => answer.verdict.name().to_owned(),
+        reason => format!("{} ({reason})", answer.verdict.name()),
+    };
+    let part = (!answer.part.is_empty()).then(|| answer.part.clone());
+    let number = text!("robot-answer-number", number = answer.sequence);
+    let age = answer
+        .age_ms
+        .map(|age| text!("robot-answer-age", age = age));
+    let is_unchecked = answer.flags() & Answer::MOTION_UNCHECKED != 0;
+    let unchecked = is_unchecked.then(|| text!("robot-answer-motion-unchecked"));
+    let all = [Some(at), Some(verdict), unchecked, part, Some(number), age];
+    let all: Vec<String> = all.into_iter().flatten().collect();
+    all.join(" · ")
+}
+
+/// Formats a moment as local time of day.
+fn clock(at: Timestamp) -> String {
+    let at = at.to_zoned(TimeZone::system());
+    at.strftime("%H:%M:%S").to_string()
+}
+
+/// Draws the numbers by which robots know the parts.
+fn numbers(ui: &mut Ui, session: &Session) {
+    let Some(library) = &session.library else {
+        return;
+    };
+    heading(ui, &text!("robot-part-numbers"));
+    let parts = library.parts.iter().map(|part| {
+        let number = library.numbers.number_of(&part.name);
+        let number = number.map_or_else(|| "–".into(), |number| number.to_string());
+        format!("{number} {}", part.name)
+    });
+    let parts: Vec<String> = parts.collect();
+    let small = RichText::new(parts.join(" · ")).small();
+    ui.add(Label::new(small).wrap());
 }

@@ -8,10 +8,7 @@ use super::{
     state::RobotCell,
 };
 use crate::{
-    cell::{
-        dialog::error_row,
-        dialog_state::{CheckAction, RobotAction, RobotDialog, RobotFile, RobotQuestion},
-    },
+    cell::dialog_state::{CheckAction, RobotAction, RobotDialog, RobotFile, RobotQuestion},
     language::UnitSystem,
     session::Session,
     source::source_menu,
@@ -23,7 +20,7 @@ use ui::{
     plot::over_time,
     theme::{Theme, space},
     user_error::UserError,
-    widgets::{self, Mark, heading, row, sentence, text_button},
+    widgets::{self, Mark, error_row, heading, row, sentence, text_button},
 };
 
 /// Height of the list of checks, logical pixels.

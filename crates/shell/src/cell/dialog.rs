@@ -1,10 +1,10 @@
 //! The frame of the dialog with its pages and the last error, the pages about a calibration, and the controls that pages share.
 
-use egui::{Button, Checkbox, Context, Grid, RichText, ScrollArea, Ui, vec2};
+use egui::{Checkbox, Context, Grid, RichText, ScrollArea, Ui, vec2};
 
 use crate::{
     cell::{
-        answer_page, check_page,
+        answering, check_page,
         dialog_state::{
             RobotAction, RobotDialog, RobotFile, RobotPage, RobotQuestion, SolvedPairs,
         },
@@ -25,7 +25,8 @@ use ui::{
     theme::{Theme, space},
     user_error::UserError,
     widgets::{
-        self, Mark, default_button, drop_down, heading, line_mark, row, sentence, text_button,
+        self, Mark, default_button, drop_down, error_row, heading, row, sentence, text_button,
+        value_button,
     },
 };
 
@@ -52,7 +53,7 @@ impl RobotCell {
             ui.add_space(space::SMALL);
             ui.horizontal_wrapped(|ui| {
                 for page in RobotPage::ALL {
-                    choice(ui, &mut dialog.page, page, page.title());
+                    value_button(ui, &mut dialog.page, page, page.title());
                 }
             });
             ui.separator();
@@ -94,7 +95,7 @@ impl RobotCell {
             }
             // This page shows the error itself, above its list.
             RobotPage::Check => return check_page::ui(ui, self, session, dialog, caused),
-            RobotPage::Answer => answer_page::ui(ui, self, session, dialog, caused),
+            RobotPage::Answer => answering::page(ui, self, session, dialog, caused),
         }
         if let Some(error) = &dialog.problem {
             ui.add_space(space::SMALL);
@@ -500,17 +501,6 @@ fn fit_figures(ui: &mut Ui, found: &SolvedPairs) {
     row(ui, &text!("robot-read-as"), &text);
 }
 
-/// Draws a button that chooses one of several values.
-pub(super) fn choice<T: PartialEq>(ui: &mut Ui, value: &mut T, this: T, text: String) {
-    let is_chosen = *value == this;
-    let button = Button::selectable(is_chosen, text)
-        .frame_when_inactive(true)
-        .min_size(vec2(space::TARGET, space::TARGET));
-    if ui.add(button).clicked() {
-        *value = this;
-    }
-}
-
 /// Draws the choice of what the camera is fixed to.
 fn mounts(ui: &mut Ui, dialog: &mut RobotDialog) {
     ui.horizontal(|ui| {
@@ -518,7 +508,7 @@ fn mounts(ui: &mut Ui, dialog: &mut RobotDialog) {
             (Mount::EyeToHand, text!("robot-camera-in-cell")),
             (Mount::EyeInHand, text!("robot-camera-on-flange")),
         ] {
-            choice(ui, &mut dialog.mount, mount, text);
+            value_button(ui, &mut dialog.mount, mount, text);
         }
     });
 }
@@ -535,15 +525,4 @@ fn name(ui: &mut Ui, dialog: &mut RobotDialog) {
 /// Draws the button that uses the calibration of the page.
 fn use_it(ui: &mut Ui, is_there: bool) -> bool {
     widgets::default_button(ui, &text!("robot-use-it"), is_there)
-}
-
-/// Draws an error or a doubt, with a sign before it and the advice below.
-pub(super) fn error_row(ui: &mut Ui, sign: Mark, error: &UserError) {
-    ui.horizontal_top(|ui| {
-        line_mark(ui, 18.0, 7.0, sign);
-        ui.vertical(|ui| {
-            ui.label(sentence(&error.what));
-            ui.weak(&error.advice);
-        });
-    });
 }

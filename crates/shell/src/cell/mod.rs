@@ -1,7 +1,6 @@
 //! The robot's cell in the window: the calibration in use, the dialog that makes another one, the check of whether the cell
 //! still stands as it was calibrated, and the server that robots ask.
 
-mod answer_page;
 pub mod answering;
 pub mod cell_check;
 mod check_page;
@@ -10,7 +9,7 @@ mod dialog_state;
 mod setup;
 pub mod state;
 
-pub(crate) use self::answer_page::chip;
+pub(crate) use self::answering::chip;
 pub use self::{
     answering::{Answering, AnsweringStatus, LastAnswer},
     cell_check::{CellChecks, CheckFolderContent},

@@ -1,5 +1,7 @@
 //! Where parts may hang: the rack in use, and the window in which it is edited.
 
+mod in_use;
+
 use std::{ops::RangeInclusive, path::PathBuf};
 
 use egui::{
@@ -30,8 +32,6 @@ use ui::{
     user_error::UserError,
     widgets::{button_if, sentence, text_button},
 };
-
-mod in_use;
 
 pub use self::in_use::{RackAction, RackEditor, RackInUse, ReadRack};
 

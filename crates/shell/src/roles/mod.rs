@@ -5,6 +5,8 @@
 //! input the window returns to the operator's view. This prevents accidents but not sabotage: anybody can edit the files of
 //! the settings and the library.
 
+mod question;
+
 use egui::{Button, Context, Event, Key, RichText, Ui, vec2};
 
 use crate::{
@@ -24,8 +26,6 @@ use ui::{
     theme::{Theme, font, space},
     widgets::{self, text_button},
 };
-
-mod question;
 
 pub use self::question::{LOCK_AFTER, OpenQuestion, Pin, RoleAction, RoleQuestion, RoleState};
 pub use super::session::UserRole;
