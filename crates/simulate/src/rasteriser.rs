@@ -105,9 +105,13 @@ impl Rendering {
     /// Draws a plane wherever it lies in front of the camera.
     pub(super) fn draw_plane(&mut self, plane: &Plane, label: SurfaceLabel) {
         let camera = self.intrinsics;
+        // Without distortion, a column's rays have one x.
+        let columns = (0..camera.width).map(|u| camera.point_at(u as f64, 0.0, 1.0).x);
+        let columns: Vec<f64> = columns.collect();
         for v in 0..camera.height {
-            for u in 0..camera.width {
-                let ray = camera.point_at(u as f64, v as f64, 1.0).coords;
+            let y = camera.point_at(0.0, v as f64, 1.0).y;
+            for (u, &x) in columns.iter().enumerate() {
+                let ray = Vector3::new(x, y, 1.0);
                 let slope = plane.normal.dot(&ray);
                 let depth = plane.offset / slope;
                 let pixel = v * camera.width + u;
