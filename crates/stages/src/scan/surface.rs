@@ -152,7 +152,8 @@ impl ShotSurface {
     /// Returns column and row of the pixel that shows a camera point; `None` outside the picture.
     pub fn pixel(&self, at: &Point3<f64>) -> Option<(i64, i64)> {
         let (u, v) = self.camera.pixel_of(at)?;
-        let (u, v) = ((u + 0.5).floor(), (v + 0.5).floor());
+        // The cast truncates, so adding a half rounds.
+        let (u, v) = (u + 0.5, v + 0.5);
         let is_inside =
             u >= 0.0 && v >= 0.0 && u < self.camera.width as f64 && v < self.camera.height as f64;
         is_inside.then_some((u as i64, v as i64))
