@@ -1,7 +1,7 @@
 //! Ranking of real silhouettes: the first shape of each MPEG-7 class is enrolled, and queried again rotated, with
 //! both principal axes flipped, or drawn at another resolution; and hundreds of them are.
 
-use std::path::Path;
+use std::{path::Path, sync::OnceLock};
 
 use nalgebra::Point2;
 use partsight::{
@@ -26,11 +26,51 @@ struct Silhouette {
     longest_side: f64,
 }
 
+/// A shape as it is enrolled: upright, 200 pixels long.
+struct Upright {
+    shape: Silhouette,
+    plane: PlaneImage,
+    contour: Contour,
+    signature: FanSignature,
+}
+
+impl Upright {
+    fn reference(&self) -> Reference {
+        let Self {
+            shape,
+            plane,
+            contour,
+            signature,
+        } = self;
+        Reference::from_plane(&shape.class, plane, contour, signature.clone())
+    }
+}
+
+/// All shapes by class and number, drawn once: that takes longer than what the tests do with them.
+fn all_shapes(data: &Path) -> &'static [Upright] {
+    static ALL: OnceLock<Vec<Upright>> = OnceLock::new();
+    ALL.get_or_init(|| {
+        let folder = data.join("silhouettes");
+        let upright = |name: &String| {
+            let shape = silhouette(&folder, name);
+            let plane = drawn(&shape, 0.0, 200);
+            let (contour, signature) = described(&plane);
+            Upright {
+                shape,
+                plane,
+                contour,
+                signature,
+            }
+        };
+        shape_names(&folder).iter().map(upright).collect()
+    })
+}
+
 /// The first shape of each class.
-fn silhouettes(folder: &Path) -> Vec<Silhouette> {
-    let mut names = shape_names(folder);
-    names.dedup_by_key(|name| class_of(name).to_owned());
-    names.iter().map(|name| silhouette(folder, name)).collect()
+fn first_of_each_class(data: &Path) -> Vec<&'static Upright> {
+    let mut shapes: Vec<&Upright> = all_shapes(data).iter().collect();
+    shapes.dedup_by_key(|one| &one.shape.class);
+    shapes
 }
 
 fn class_of(name: &str) -> &str {
@@ -111,14 +151,8 @@ fn described(plane: &PlaneImage) -> (Contour, FanSignature) {
     (contour, signature)
 }
 
-fn enrolled(shape: &Silhouette) -> Reference {
-    let plane = drawn(shape, 0.0, 200);
-    let (contour, signature) = described(&plane);
-    Reference::from_plane(&shape.class, &plane, &contour, signature)
-}
-
 fn num_right(
-    shapes: &[Silhouette],
+    shapes: &[&Upright],
     references: &[Reference],
     matcher: Matcher,
     turn: f64,
@@ -128,7 +162,7 @@ fn num_right(
         matcher,
         ..RankParams::default()
     };
-    let is_right = |shape: &&Silhouette| {
+    let is_right = |Upright { shape, .. }: &&&Upright| {
         let plane = drawn(shape, turn, raster);
         let (contour, signature) = described(&plane);
         let query = Query {
@@ -145,9 +179,9 @@ fn num_right(
 #[test]
 fn a_shape_is_found_again_turned_flipped_and_at_another_resolution() {
     let Some(data) = data_folder() else { return };
-    let shapes = silhouettes(&data.join("silhouettes"));
+    let shapes = first_of_each_class(&data);
     assert_eq!(shapes.len(), 35, "one shape of each class");
-    let references: Vec<Reference> = shapes.iter().map(enrolled).collect();
+    let references: Vec<Reference> = shapes.iter().map(|one| one.reference()).collect();
     for (what, turn, raster) in [
         ("as enrolled", 0.0, 200),
         ("turned by 37°", 37.0, 200),
@@ -165,16 +199,12 @@ fn a_shape_is_found_again_turned_flipped_and_at_another_resolution() {
 #[test]
 fn a_library_of_hundreds_ranks_the_same_sixteen_first_as_all_compared_in_full() {
     let Some(data) = data_folder() else { return };
-    let folder = data.join("silhouettes");
-    let shapes: Vec<Silhouette> = shape_names(&folder)
-        .iter()
-        .map(|name| silhouette(&folder, name))
-        .collect();
-    let references: Vec<Reference> = shapes.iter().map(enrolled).collect();
+    let shapes = all_shapes(&data);
+    let references: Vec<Reference> = shapes.iter().map(Upright::reference).collect();
     assert!(references.len() > EXHAUSTIVE_UP_TO, "{}", references.len());
     let params = RankParams::default();
     let (mut num, mut num_first, mut num_16, mut num_compared) = (0, 0, 0, 0);
-    for shape in shapes.iter().step_by(5) {
+    for Upright { shape, .. } in shapes.iter().step_by(5) {
         let plane = drawn(shape, 37.0, 160);
         let (contour, signature) = described(&plane);
         let query = Query {
@@ -208,19 +238,21 @@ fn a_library_of_hundreds_ranks_the_same_sixteen_first_as_all_compared_in_full() 
 #[test]
 fn other_shapes_of_a_class_rank_their_class_among_the_first() {
     let Some(data) = data_folder() else { return };
-    let folder = data.join("silhouettes");
-    let exemplars = silhouettes(&folder);
-    let references: Vec<Reference> = exemplars.iter().map(enrolled).collect();
+    let exemplars = first_of_each_class(&data);
+    let references: Vec<Reference> = exemplars.iter().map(|one| one.reference()).collect();
     let params = RankParams::default();
     let (mut num, mut first, mut among_five) = (0, 0, 0);
-    for name in shape_names(&folder) {
-        let shape = silhouette(&folder, &name);
-        let plane = drawn(&shape, 0.0, 200);
-        let (contour, signature) = described(&plane);
+    for Upright {
+        shape,
+        plane,
+        contour,
+        signature,
+    } in all_shapes(&data)
+    {
         let query = Query {
-            plane: &plane,
-            contour: &contour,
-            signature: &signature,
+            plane,
+            contour,
+            signature,
         };
         let ranking = rank(&query, &references, &params);
         let index = ranking.entries.iter().position(|e| e.part == shape.class);

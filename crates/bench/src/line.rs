@@ -382,11 +382,11 @@ fn later(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use inspection::library::{EnrolParams, enrol_standard_parts};
+    use inspection::fixtures::standard_library;
 
     #[test]
     fn every_part_of_a_line_has_one_number_and_its_pose_later_is_within_its_bound() {
-        let library = enrol_standard_parts(&EnrolParams::default()).expect("eight parts");
+        let library = standard_library();
         let setup = LineSetup {
             speed: 0.2,
             swinging_every: 5,

@@ -2,7 +2,7 @@
 
 #![allow(clippy::disallowed_methods, reason = "tests change files")]
 
-use std::{fs, path::Path};
+use std::{fs, path::Path, sync::LazyLock};
 
 use geometry::units::{Metres, Radians};
 use stages::{
@@ -16,18 +16,32 @@ use stages::{
 };
 
 use crate::{
-    library::{Library, LibraryFolder},
+    library::{EnrolParams, Library, LibraryFolder, enrol_standard_parts},
     pipeline::{Rejection, Unrecognisable},
 };
 
 /// The folder of the eight shipped parts.
 pub const SHIPPED_PARTS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../reference_parts");
 
-/// Loads the eight shipped parts.
+/// The eight shipped parts, loaded once, with what is else built when a pose is first tried.
 pub fn shipped_library() -> Library {
-    let folder = LibraryFolder::open(SHIPPED_PARTS.as_ref()).expect("the shipped parts");
-    let load = folder.load(&ReferenceParams::default()).expect("loaded");
-    load.library
+    static LOADED: LazyLock<Library> = LazyLock::new(|| {
+        let folder = LibraryFolder::open(SHIPPED_PARTS.as_ref()).expect("the shipped parts");
+        let load = folder.load(&ReferenceParams::default()).expect("loaded");
+        for reference in &load.library.references {
+            reference.prefetch();
+            reference.borders();
+        }
+        load.library
+    });
+    LOADED.clone()
+}
+
+/// The eight parts of the simulated standard car, enrolled once.
+pub fn standard_library() -> Library {
+    static ENROLLED: LazyLock<Library> =
+        LazyLock::new(|| enrol_standard_parts(&EnrolParams::default()).expect("eight parts"));
+    ENROLLED.clone()
 }
 
 /// Copies the shipped parts into a new folder, for a test to change.

@@ -1,5 +1,7 @@
 //! The cell: the part at its pose, wall and floor fitted around it, with or without stand and clutter.
 
+use std::sync::OnceLock;
+
 use nalgebra::{Point3, Rotation3, Vector3};
 use rand::{RngExt as _, SeedableRng as _};
 use rand_pcg::Pcg64;
@@ -18,6 +20,10 @@ use geometry::depth_frame::Intrinsics;
 use geometry::mesh::TriangleMesh;
 use geometry::rigid::RigidTransform;
 use geometry::units::{Metres, Radians};
+
+/// The meshes of the standard car's parts, for either side, built on first use: nearly every frame is of one of them.
+static STANDARD: [[OnceLock<TriangleMesh>; 2]; PartKind::ALL.len()] =
+    [const { [const { OnceLock::new() }; 2] }; PartKind::ALL.len()];
 
 /// The object in front of the camera.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -46,7 +52,15 @@ impl SimulatedObject {
                 kind,
                 side,
                 model_seed,
-            } => PartModel::new(kind, side, model_seed).into_mesh(),
+            } => {
+                let made = || PartModel::new(kind, side, model_seed).into_mesh();
+                if model_seed == 0 {
+                    let standard = &STANDARD[kind as usize][side as usize];
+                    standard.get_or_init(made).clone()
+                } else {
+                    made()
+                }
+            }
             Self::Object(kind) => kind.mesh(),
             Self::Nothing => TriangleMesh::default(),
         }

@@ -290,8 +290,8 @@ impl SimulatedLine {
 
     /// Takes a frame whose middle row is exposed at this time.
     pub fn frame(&self, seconds: f64, noise: &SensorNoise) -> DepthFrame {
-        let (width, height) = (self.intrinsics.width, self.intrinsics.height);
-        let mut rendering = self.band(seconds);
+        let height = self.intrinsics.height;
+        let mut rendering = Rendering::new(self.intrinsics);
         let num_bands = if self.setup.readout > 0.0 {
             NUM_BANDS
         } else {
@@ -299,24 +299,19 @@ impl SimulatedLine {
         };
         for band in 0..num_bands {
             let share = (band as f64 + 0.5) / num_bands as f64 - 0.5;
-            let drawn = self.band(seconds + share * self.setup.readout);
-            let rows = band * height / num_bands * width..(band + 1) * height / num_bands * width;
-            rendering.depth[rows.clone()].copy_from_slice(&drawn.depth[rows.clone()]);
-            rendering.facing[rows.clone()].copy_from_slice(&drawn.facing[rows.clone()]);
-            rendering.labels[rows.clone()].copy_from_slice(&drawn.labels[rows]);
+            rendering.rows = band * height / num_bands..(band + 1) * height / num_bands;
+            self.draw_parts(&mut rendering, seconds + share * self.setup.readout);
         }
         rendering.draw_behind(&self.backdrop);
         self.sensor.sense(&rendering, noise)
     }
 
-    /// The parts alone as they are at this time.
-    fn band(&self, seconds: f64) -> Rendering {
-        let mut rendering = Rendering::new(self.intrinsics);
+    /// Draws the parts as they are at this time.
+    fn draw_parts(&self, rendering: &mut Rendering, seconds: f64) {
         for part in self.parts(seconds) {
             let (_, mesh, _) = &self.cycle[(part.number % self.cycle.len() as u64) as usize];
             rendering.draw_mesh(mesh, &part.camera_from_part, SurfaceLabel::Part);
         }
-        rendering
     }
 }
 

@@ -4,6 +4,8 @@
 //! centres. The reciprocal of depth is linear over the image of a plane, so each triangle's depth is exactly that of its
 //! plane. Both faces of a triangle are drawn: sheet metal is seen from inside through openings.
 
+use std::ops::Range;
+
 use nalgebra::{Point3, Vector3};
 use serde::{Deserialize, Serialize};
 
@@ -54,6 +56,8 @@ impl Plane {
 /// The images being drawn, row by row from the top left.
 pub(super) struct Rendering {
     pub(super) intrinsics: Intrinsics,
+    /// The rows in which meshes are drawn.
+    pub(super) rows: Range<usize>,
     /// Depth along the optical axis in metres; infinite where nothing is drawn.
     pub(super) depth: Vec<f32>,
     /// |cosine| of the angle between the viewing ray and the surface normal, 0..1.
@@ -70,6 +74,7 @@ impl Rendering {
                 distortion: Distortion::NONE,
                 ..intrinsics
             },
+            rows: 0..intrinsics.height,
             depth: vec![f32::INFINITY; num_pixels],
             facing: vec![0.0; num_pixels],
             labels: vec![SurfaceLabel::Background; num_pixels],
@@ -105,9 +110,13 @@ impl Rendering {
     /// Draws a plane wherever it lies in front of the camera.
     pub(super) fn draw_plane(&mut self, plane: &Plane, label: SurfaceLabel) {
         let camera = self.intrinsics;
+        // Without distortion, a column's rays have one x.
+        let columns = (0..camera.width).map(|u| camera.point_at(u as f64, 0.0, 1.0).x);
+        let columns: Vec<f64> = columns.collect();
         for v in 0..camera.height {
-            for u in 0..camera.width {
-                let ray = camera.point_at(u as f64, v as f64, 1.0).coords;
+            let y = camera.point_at(0.0, v as f64, 1.0).y;
+            for (u, &x) in columns.iter().enumerate() {
+                let ray = Vector3::new(x, y, 1.0);
                 let slope = plane.normal.dot(&ray);
                 let depth = plane.offset / slope;
                 let pixel = v * camera.width + u;
@@ -147,12 +156,12 @@ impl Rendering {
         }
         let low_u = a.0.min(b.0).min(c.0).ceil().max(0.0);
         let high_u = a.0.max(b.0).max(c.0).floor().min(camera.width as f64 - 1.0);
-        let low_v = a.1.min(b.1).min(c.1).ceil().max(0.0);
+        let low_v = a.1.min(b.1).min(c.1).ceil().max(self.rows.start as f64);
         let high_v =
             a.1.max(b.1)
                 .max(c.1)
                 .floor()
-                .min(camera.height as f64 - 1.0);
+                .min(self.rows.end as f64 - 1.0);
         if low_u > high_u || low_v > high_v {
             return;
         }

@@ -138,6 +138,7 @@ fn with_noise(rendering: &Rendering, noise: &SensorNoise) -> Vec<u16> {
     let lateral = (LATERAL_PIXELS * noise.multiplier) as f32;
     // Losses grow more slowly than noise: a multiplier of 3 gives five times the dropouts.
     let loss_scale = noise.multiplier.sqrt().sqrt() as f32;
+    let units_of_steps = units_of_steps(focal_baseline);
     let mut depth = vec![0; disparity.len()];
     for v in 0..camera.height {
         for (field, row) in fields.iter_mut().zip(&mut rows) {
@@ -165,13 +166,25 @@ fn with_noise(rendering: &Rendering, noise: &SensorNoise) -> Vec<u16> {
             let error = f64::from(axial[u]) * sigma;
             // The cast truncates, so adding a half rounds; a negative disparity is out of range anyway.
             let steps = ((true_disparity + error) * STEPS_PER_PIXEL + 0.5) as u32;
-            let z = focal_baseline * STEPS_PER_PIXEL / f64::from(steps);
-            if (RANGE_M.0..=RANGE_M.1).contains(&z) {
-                depth[pixel] = in_units(z, METRES_PER_UNIT);
-            }
+            // Disparities above the table are nearer than the range.
+            depth[pixel] = units_of_steps.get(steps as usize).copied().unwrap_or(0);
         }
     }
     depth
+}
+
+/// Returns the reading of every number of steps of the disparity, 0 for those out of range.
+fn units_of_steps(focal_baseline: f64) -> Vec<u16> {
+    let most = (focal_baseline * STEPS_PER_PIXEL / RANGE_M.0).ceil() as u32;
+    let units = (0..=most).map(|steps| {
+        let z = focal_baseline * STEPS_PER_PIXEL / f64::from(steps);
+        if (RANGE_M.0..=RANGE_M.1).contains(&z) {
+            in_units(z, METRES_PER_UNIT)
+        } else {
+            0
+        }
+    });
+    units.collect()
 }
 
 /// Returns the standard deviation of the disparity before quantisation, in pixels, on a surface at |cosine| `facing`.
@@ -222,30 +235,36 @@ pub(super) fn lit_by_projector(disparity: &[f32], camera: &Intrinsics) -> Vec<bo
     let margin = (camera.fx * BASELINE_M / RANGE_M.0).ceil() as usize;
     let mut lit = vec![true; disparity.len()];
     let mut nearest = vec![0.0_f32; width + margin + 2];
+    let mut columns = vec![0.0_f32; width];
     for (row, lit_row) in disparity
         .chunks_exact(width)
         .zip(lit.chunks_exact_mut(width))
     {
         nearest.fill(0.0);
-        let column = |u: usize| ((u + margin) as f32 - row[u]).max(0.0);
-        for u in 0..width {
-            let here = column(u);
+        for (u, (column, disparity)) in columns.iter_mut().zip(row).enumerate() {
+            *column = ((u + margin) as f32 - disparity).max(0.0);
+        }
+        for (u, (&here, &disparity)) in columns.iter().zip(row).enumerate() {
             // A slope towards the camera spreads neighbours over several projector columns: fill between them.
-            let next = if u + 1 < width && (row[u + 1] - row[u]).abs() < EDGE_STEP_PIXELS {
-                column(u + 1)
+            let next = if u + 1 < width && (row[u + 1] - disparity).abs() < EDGE_STEP_PIXELS {
+                columns[u + 1]
             } else {
                 here
             };
-            let (first, last) = (here.min(next) as usize, here.max(next) as usize);
-            for cell in &mut nearest[first..=last] {
-                *cell = cell.max(row[u]);
+            for cell in &mut nearest[index(here.min(next))..=index(here.max(next))] {
+                *cell = cell.max(disparity);
             }
         }
-        for u in 0..width {
-            lit_row[u] = nearest[column(u) as usize] <= row[u] + EDGE_STEP_PIXELS;
+        for ((lit, &column), disparity) in lit_row.iter_mut().zip(&columns).zip(row) {
+            *lit = nearest[index(column)] <= disparity + EDGE_STEP_PIXELS;
         }
     }
     lit
+}
+
+/// Truncates a column or row of a picture, at least 0; a cast to `usize` would take longer.
+fn index(place: f32) -> usize {
+    place as i32 as usize
 }
 
 /// Returns 2 at a discontinuity of the disparity, 1 one pixel further away, 0 elsewhere.
@@ -284,7 +303,7 @@ pub(super) fn sample(disparity: &[f32], camera: &Intrinsics, u: f32, v: f32) -> 
     let (width, height) = (camera.width, camera.height);
     let u = u.clamp(0.0, (width - 1) as f32);
     let v = v.clamp(0.0, (height - 1) as f32);
-    let (column, row) = (u as usize, v as usize);
+    let (column, row) = (index(u), index(v));
     let (s, t) = (u - column as f32, v - row as f32);
     let right = usize::from(column + 1 < width);
     let below = if row + 1 < height { width } else { 0 };

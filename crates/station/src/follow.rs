@@ -393,19 +393,22 @@ mod tests {
         names
     }
 
-    fn line(scene: CellScene) -> impl FnMut(u64) -> Arc<SceneCloud> {
+    /// The first frames of a line, to be looked at several times.
+    fn line(scene: CellScene, num: u64) -> impl Fn(u64) -> Arc<SceneCloud> {
         let mut cell = SimulatedCell::new(SimulatedSpec {
             scene,
             frames_per_second: 10.0,
             ..SimulatedSpec::default()
         });
-        move |number| Arc::new(scene_from_image(cell.frame(number + 1).0))
+        let frames: Vec<_> = (1..=num).map(|number| cell.frame(number).0).collect();
+        move |number| Arc::new(scene_from_image(frames[number as usize].clone()))
     }
 
     #[test]
     fn of_racks_that_come_in_and_leave_every_part_is_recorded_once() {
+        let frame = line(CellScene::Rack { every: 8.0 }, 160);
         for step in [1, 3] {
-            let rows = rows_of(3, step, 160, line(CellScene::Rack { every: 8.0 }));
+            let rows = rows_of(3, step, 160, &frame);
             let [first, second] = [accepted(&rows, 0.0..8.5), accepted(&rows, 8.5..16.0)];
             assert_eq!(
                 (first.len(), second.len(), rows.len()),
@@ -418,8 +421,8 @@ mod tests {
 
     #[test]
     fn parts_one_after_the_other_have_the_same_rows_where_several_may_hang() {
-        let [alone, several] = [1, 3]
-            .map(|max_parts| rows_of(max_parts, 3, 116, line(CellScene::Line { every: 6.0 })));
+        let frame = line(CellScene::Line { every: 6.0 }, 116);
+        let [alone, several] = [1, 3].map(|max_parts| rows_of(max_parts, 3, 116, &frame));
         let what = |rows: &[Row]| -> Vec<_> {
             let rows = rows.iter();
             rows.map(|(at, name, is_accepted, _)| (*at, name.clone(), *is_accepted))

@@ -5,6 +5,7 @@ use std::{
     fs,
     io::{self, Read as _},
     path::Path,
+    sync::{Mutex, PoisonError},
 };
 
 use super::{
@@ -18,7 +19,7 @@ use files::{
     toml_problem,
 };
 use geometry::{cloud::PointCloud, nearest::KdTree, normals::estimate_normals, units::Metres};
-use stages::reference::{Reference, ReferenceParams};
+use stages::reference::{Coverage, Reference, ReferenceError, ReferenceParams};
 
 /// A stored part, read and prepared.
 #[derive(Debug)]
@@ -52,8 +53,7 @@ pub(super) fn read_entry(
         let meta = read_meta(entry)?;
         let cloud = read_cloud(entry, &meta.cloud)?;
         let mut reference =
-            Reference::prepare(meta.part_name().as_str(), cloud, meta.coverage, params)?
-                .with_cut(meta.cut);
+            prepared(meta.part_name().as_str(), cloud, meta.coverage, params)?.with_cut(meta.cut);
         meta.name.as_str().clone_into(&mut reference.enrolled_as);
         let mut issues = issues(entry, &reference, look, params);
         if look == CloudCheckLevel::Thorough
@@ -80,6 +80,41 @@ pub(super) fn read_entry(
         path: entry.path.clone(),
         reason,
     })
+}
+
+/// The parts prepared last, most recently first: a library is read again after every change of it, and of a few parts the
+/// others are then ready.
+static KNOWN: Mutex<Vec<(Coverage, ReferenceParams, Reference)>> = Mutex::new(Vec::new());
+/// How many parts are kept; each takes some 0.4 MB.
+const MAX_KNOWN: usize = 16;
+
+/// Prepares a part, unless it was among the last.
+fn prepared(
+    name: &str,
+    cloud: PointCloud,
+    coverage: Coverage,
+    params: &ReferenceParams,
+) -> Result<Reference, ReferenceError> {
+    let known = || KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
+    let mut all = known();
+    let is_this = |(of, by, reference): &(Coverage, ReferenceParams, Reference)| {
+        *of == coverage && by == params && *reference.cloud == cloud
+    };
+    if let Some(index) = all.iter().position(is_this) {
+        all[..=index].rotate_right(1);
+        let mut reference = all[0].2.clone();
+        drop(all);
+        name.clone_into(&mut reference.name);
+        name.clone_into(&mut reference.enrolled_as);
+        return Ok(reference);
+    }
+    drop(all);
+    let reference = Reference::prepare(name, cloud, coverage, params)?;
+    let mut all = known();
+    all.truncate(MAX_KNOWN - 1);
+    all.insert(0, (coverage, params.clone(), reference.clone()));
+    drop(all);
+    Ok(reference)
 }
 
 /// Returns why a stored part cannot be loaded; `None` if it can.

@@ -341,7 +341,7 @@ impl MirrorTally {
 mod tests {
     use super::*;
     use crate::{
-        library::{EnrolParams, enrol_standard_parts},
+        fixtures::standard_library,
         pipeline::{Unwatched, run, watch::StageClock},
     };
     use simulate::{CellSetup, PartKind, Side};
@@ -350,7 +350,7 @@ mod tests {
     #[test]
     fn pose_and_score_of_a_mirror_image_are_those_of_the_part_that_it_is_called_the_image_of() {
         let recipe = Recipe::default();
-        let library = enrol_standard_parts(&EnrolParams::default()).expect("eight parts");
+        let library = standard_library();
         let setup = CellSetup::with_part(PartKind::FrontDoor, Side::Right, 0, 41);
         let scene = scene_of(&setup);
         let seen = run(&scene, &library, &recipe, &Unwatched).expect("not cancelled");
@@ -398,7 +398,7 @@ mod tests {
     fn a_symmetric_part_whose_own_search_failed_is_searched_again_and_no_image_is_called_mirrored()
     {
         let recipe = Recipe::default();
-        let library = enrol_standard_parts(&EnrolParams::default()).expect("eight parts");
+        let library = standard_library();
         let scene = scene_of(&CellSetup::with_part(PartKind::TrunkLid, Side::Left, 0, 41));
         let seen = run(&scene, &library, &recipe, &Unwatched).expect("not cancelled");
         assert!(seen.verdict.is_accepted(), "{:?}", seen.verdict);
@@ -424,7 +424,7 @@ mod tests {
 
     #[test]
     fn parts_that_look_the_same_in_a_mirror_are_told_from_those_that_nearly_do() {
-        let library = enrol_standard_parts(&EnrolParams::default()).expect("eight parts");
+        let library = standard_library();
         for reference in &library.references {
             let expected = match reference.name.as_str() {
                 "trunk_lid" | "front_bumper" | "radiator_support" | "grille" => true,

@@ -7,6 +7,7 @@ use geometry::{
     rigid::{RigidTransform, pose_error},
 };
 use inspection::{
+    fixtures::standard_library,
     library::enrolment_pose,
     pipeline::{Inspection, MirrorTally, Recipe, Rejection, Verdict},
 };
@@ -14,7 +15,7 @@ use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
 use simulate::{CellSetup, PartKind, PartPose, SensorNoise, Side, frame};
 use stages::scene::scene_from_frame;
 
-use super::{inspected, standard};
+use super::inspected;
 
 /// Pose of the part in these tests.
 fn hung() -> RigidTransform {
@@ -43,7 +44,7 @@ fn off(inspection: &Inspection) -> [f64; 2] {
 
 #[test]
 fn a_picture_of_five_million_pixels_gives_the_verdict_and_the_pose_of_a_small_one() {
-    let library = standard();
+    let library = standard_library();
     let fine = Intrinsics {
         width: 2560,
         height: 1920,
@@ -88,7 +89,7 @@ fn through_lens(pinhole: &DepthFrame, lens: Intrinsics) -> DepthFrame {
 
 #[test]
 fn behind_a_lens_the_pose_is_as_good_as_without_one() {
-    let library = standard();
+    let library = standard_library();
     let wide = Intrinsics {
         width: 1400,
         height: 1100,
@@ -131,7 +132,12 @@ fn mirrored(mut frame: DepthFrame) -> DepthFrame {
 }
 
 fn rejection(frame: &DepthFrame) -> Verdict {
-    inspected(&scene_from_frame(frame), &standard(), &Recipe::default()).verdict
+    inspected(
+        &scene_from_frame(frame),
+        &standard_library(),
+        &Recipe::default(),
+    )
+    .verdict
 }
 
 #[test]

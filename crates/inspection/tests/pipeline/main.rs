@@ -27,9 +27,10 @@ use geometry::{
     rigid::pose_error,
 };
 use inspection::{
+    fixtures::standard_library,
     library::{
-        EnrolParams, Library, PartDescription, PartName, enrol_captured, enrol_standard_parts,
-        enrol_surface, enrolment_pose,
+        EnrolParams, Library, PartDescription, PartName, enrol_captured, enrol_surface,
+        enrolment_pose,
     },
     pipeline::{
         Cancelled, Inspection, PoseChoice, ProgressObserver, Recipe, Rejection, Stage,
@@ -46,10 +47,6 @@ use stages::{
     rank::Matcher,
     scene::{SceneCloud, scene_from_cloud, scene_from_frame},
 };
-
-fn standard() -> Library {
-    enrol_standard_parts(&EnrolParams::default()).expect("eight parts")
-}
 
 fn inspected(scene: &SceneCloud, library: &Library, recipe: &Recipe) -> Inspection {
     run(scene, library, recipe, &Unwatched).expect("not cancelled")
@@ -95,7 +92,7 @@ fn moving_and_turning_the_part_leaves_its_signature_up_to_a_cyclic_shift() {
 
 #[test]
 fn the_pose_follows_the_part_in_both_directions() {
-    let (library, camera_from_model) = (standard(), enrolment_pose());
+    let (library, camera_from_model) = (standard_library(), enrolment_pose());
     for kind in [PartKind::FrontDoor, PartKind::Fender, PartKind::TrunkLid] {
         let truth = Isometry3::from_parts(
             Vector3::new(0.04, -0.03, 1.5).into(),
@@ -127,7 +124,7 @@ fn the_pose_follows_the_part_in_both_directions() {
 
 #[test]
 fn the_same_scene_gives_the_same_bits() {
-    let library = standard();
+    let library = standard_library();
     let scene = door(0.4, [0.02, 0.0]);
     let once = inspected(&scene, &library, &Recipe::default());
     let again = inspected(&scene, &library, &Recipe::default());
@@ -139,7 +136,7 @@ fn the_same_scene_gives_the_same_bits() {
 
 #[test]
 fn one_core_and_all_of_them_give_the_same_bits() {
-    let library = standard();
+    let library = standard_library();
     let fender = SimulatedObject::Part {
         kind: PartKind::Fender,
         side: Side::Left,
@@ -166,7 +163,7 @@ fn one_core_and_all_of_them_give_the_same_bits() {
 
 #[test]
 fn nothing_to_see_is_no_part_whatever_the_recipe() {
-    let library = standard();
+    let library = standard_library();
     let nowhere = Point3::new(f32::NAN, f32::NAN, f32::NAN);
     let cloud = |points: Vec<Point3<f32>>| scene_from_cloud(PointCloud::from_points(points));
     let empty_cell = scene_of(&CellSetup::new(SimulatedObject::Nothing, 3));
@@ -227,7 +224,7 @@ fn nothing_to_see_is_no_part_whatever_the_recipe() {
 
 #[test]
 fn a_scene_of_stray_points_is_never_accepted() {
-    let library = standard();
+    let library = standard_library();
     // Isolated flat and curved sheets unlike any part.
     for bend in [0.0, 0.5, -2.0] {
         let points = (0..20_000).map(|i| {
@@ -286,7 +283,7 @@ fn a_cancelled_inspection_stops_before_the_next_stage() {
             self.reached.get()
         }
     }
-    let library = standard();
+    let library = standard_library();
     let scene = door(0.0, [0.0, 0.0]);
     for stage in [
         Stage::Segment,
@@ -323,7 +320,7 @@ impl ProgressObserver for Midway {
 
 #[test]
 fn icp_ga_finds_a_door_turned_too_far_for_icp_and_can_be_cancelled_midway() {
-    let library = standard();
+    let library = standard_library();
     let scene = door(2.0, [0.02, 0.01]);
     let by = |method| Recipe {
         pose: PoseChoice::By(method),
@@ -343,7 +340,7 @@ fn icp_ga_finds_a_door_turned_too_far_for_icp_and_can_be_cancelled_midway() {
 
 #[test]
 fn a_capture_saved_as_bare_points_is_recognised_as_well() {
-    let library = standard();
+    let library = standard_library();
     for (i, kind) in (0..).zip(PartKind::ALL) {
         for seed in [i, i + 8] {
             let scene = scene_of(&CellSetup::with_part(kind, Side::Left, 0, 60 + seed));
@@ -369,7 +366,7 @@ fn a_capture_saved_as_bare_points_is_recognised_as_well() {
 
 #[test]
 fn a_right_hand_part_is_refused_as_the_mirror_image_of_the_left_one() {
-    let library = standard();
+    let library = standard_library();
     for kind in [PartKind::FrontDoor, PartKind::BackDoor, PartKind::Fender] {
         let setup = CellSetup::with_part(kind, Side::Right, 0, 41);
         let inspection = inspected(&scene_of(&setup), &library, &Recipe::default());
@@ -390,7 +387,7 @@ fn a_right_hand_part_is_refused_as_the_mirror_image_of_the_left_one() {
 
 #[test]
 fn a_part_whose_outline_its_stand_changes_is_found() {
-    let library = standard();
+    let library = standard_library();
     // A clamp holds the fender; the bars of the grille are as wide as the tubes that it hangs on.
     for (kind, seed) in [(PartKind::Fender, 5_800_519), (PartKind::Grille, 5_800_302)] {
         let subject = SimulatedObject::Part {
@@ -418,7 +415,7 @@ fn a_part_whose_outline_its_stand_changes_is_found() {
 
 #[test]
 fn a_half_that_two_doors_share_is_accepted_as_neither() {
-    let library = standard();
+    let library = standard_library();
     // Regression: each was accepted as the other door, whose pose fits the half in sight slightly better.
     let halves = [
         (PartKind::FrontDoor, 17_800_500),
@@ -442,7 +439,7 @@ fn a_half_that_two_doors_share_is_accepted_as_neither() {
 
 #[test]
 fn a_piece_is_found_whose_pose_first_stops_farther_along_the_sheet() {
-    let library = standard();
+    let library = standard_library();
     let subject = SimulatedObject::Part {
         kind: PartKind::Grille,
         side: Side::Left,
@@ -456,7 +453,7 @@ fn a_piece_is_found_whose_pose_first_stops_farther_along_the_sheet() {
 
 #[test]
 fn a_part_of_another_model_is_named_and_its_pose_is_marked_as_approximate() {
-    let library = standard();
+    let library = standard_library();
     let verdict_on = |model_seed: u64, kind: PartKind| {
         let setup = CellSetup::with_part(kind, Side::Left, model_seed, 51);
         let scene = scene_of(&setup);
@@ -477,7 +474,7 @@ fn a_part_of_another_model_is_named_and_its_pose_is_marked_as_approximate() {
 
 #[test]
 fn a_part_half_out_of_the_picture_is_accepted_from_what_is_in_sight() {
-    let library = standard();
+    let library = standard_library();
     for (kind, right) in [
         (PartKind::FrontDoor, 0.55),
         (PartKind::BackDoor, -0.5),
@@ -541,7 +538,7 @@ fn the_half_of_a_bumper_that_is_not_enrolled_is_called_that() {
 
 #[test]
 fn a_strip_without_readings_leaves_the_part_in_its_place() {
-    let library = standard();
+    let library = standard_library();
     let mut num_accepted = 0;
     for (kind, seed) in [
         (PartKind::FrontDoor, 3),
@@ -586,7 +583,7 @@ fn a_strip_without_readings_leaves_the_part_in_its_place() {
 
 #[test]
 fn a_part_of_another_make_is_named_as_one_and_never_accepted() {
-    let library = standard();
+    let library = standard_library();
     let mut num_named = 0;
     for (kind, seed) in PartKind::ALL.into_iter().zip(81..) {
         let setup = CellSetup::with_part(kind, Side::Left, FIRST_OTHER_MAKE + seed, seed);
@@ -607,7 +604,7 @@ fn a_part_of_another_make_is_named_as_one_and_never_accepted() {
 
 #[test]
 fn what_nobody_enrolled_is_unknown() {
-    let library = standard();
+    let library = standard_library();
     for (object, seed) in [
         (ObjectKind::Hood, 5),
         (ObjectKind::Board, 6),
@@ -630,7 +627,7 @@ fn what_nobody_enrolled_is_unknown() {
 
 #[test]
 fn a_part_behind_a_plank_among_clutter_and_noise_is_named() {
-    let library = standard();
+    let library = standard_library();
     for kind in [PartKind::FrontDoor, PartKind::TrunkLid, PartKind::Fender] {
         let mut setup = CellSetup::with_part(kind, Side::Left, 0, 23);
         setup.clutter = Clutter::InFront;
@@ -650,7 +647,7 @@ fn a_part_behind_a_plank_among_clutter_and_noise_is_named() {
 
 #[test]
 fn a_second_reference_of_the_same_part_takes_nothing_from_its_margin() {
-    let mut library = standard();
+    let mut library = standard_library();
     let scene = door(0.3, [0.02, 0.0]);
     let margin = |library: &Library| {
         let verdict = inspected(&scene, library, &Recipe::default()).verdict;

@@ -9,6 +9,7 @@ use geometry::{
     units::Metres,
 };
 use inspection::{
+    fixtures::standard_library,
     library::{Library, enrolment_pose},
     pipeline::{
         Expected, Inspection, ProgressObserver, Recipe, Rejection, Stage, Unwatched, run, run_all,
@@ -20,8 +21,6 @@ use simulate::{
     rack_frame,
 };
 use stages::scene::{SceneCloud, scene_from_frame};
-
-use super::standard;
 
 /// Depth of the wall.
 const WALL: Metres = Metres(3.0);
@@ -109,7 +108,7 @@ fn check(inspection: &Inspection, expected: &Hung) {
 #[test]
 fn every_part_is_accepted_once_at_its_place_from_left_to_right() {
     use PartKind::{BackDoor, Fender, FrontDoor, RadiatorSupport, TrunkLid};
-    let library = standard();
+    let library = standard_library();
     for kinds in [
         &[FrontDoor, TrunkLid][..],
         &[RadiatorSupport, Fender],
@@ -172,7 +171,7 @@ impl ProgressObserver for ProjectedHere {
 
 #[test]
 fn the_next_part_is_inspected_on_another_core() {
-    let library = standard();
+    let library = standard_library();
     let (scene, _) = rack(RackKind::Apart, 2, 2);
     let mut recipe = Recipe::default();
     recipe.segment.max_parts = 2;
@@ -188,7 +187,7 @@ fn the_next_part_is_inspected_on_another_core() {
 
 #[test]
 fn one_part_is_inspected_as_ever() {
-    let library = standard();
+    let library = standard_library();
     let parts = [
         hung(part(PartKind::FrontDoor), -0.5, 2.0, 0.1),
         hung(part(PartKind::TrunkLid), 0.5, 2.1, -0.2),
@@ -211,7 +210,7 @@ fn one_part_is_inspected_as_ever() {
 
 #[test]
 fn the_expected_one_of_several_is_found_and_the_others_are_not_expected() {
-    let library = standard();
+    let library = standard_library();
     let (scene, parts) = rack(RackKind::Apart, 3, 4);
     let names = parts.iter().map(|hung| match hung.subject {
         SimulatedObject::Part { kind, .. } => kind.name(),
@@ -244,7 +243,7 @@ fn the_expected_one_of_several_is_found_and_the_others_are_not_expected() {
 
 #[test]
 fn what_is_no_part_comes_last_and_is_never_accepted() {
-    let library = standard();
+    let library = standard_library();
     for object in [ObjectKind::Wheel, ObjectKind::Box, ObjectKind::Hood] {
         let things = [
             hung(SimulatedObject::Object(object), -0.6, 1.9, 0.0),
@@ -273,7 +272,7 @@ fn rack(kind: RackKind, num_places: usize, seed: u64) -> (SceneCloud, Vec<Hung>)
 
 #[test]
 fn parts_that_touch_are_told_apart() {
-    let library = standard();
+    let library = standard_library();
     // Two and three of them that are one surface for the segmentation, along necks of different widths.
     for (num, seed) in [(2, 8), (2, 13), (3, 2), (3, 5), (3, 12)] {
         let (scene, parts) = rack(RackKind::Touching, num, seed);
@@ -289,7 +288,7 @@ fn parts_that_touch_are_told_apart() {
 
 #[test]
 fn a_right_part_beside_a_left_one_is_not_accepted() {
-    let library = standard();
+    let library = standard_library();
     for seed in 1..=6 {
         let (scene, parts) = rack(RackKind::Mirrored, 2, seed);
         let is_left = |part: &&Hung| {

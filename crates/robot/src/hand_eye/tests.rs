@@ -246,7 +246,7 @@ fn an_outline_that_moves_with_the_view_is_in_the_bounds() {
         normal: Vector3::z_axis(),
     };
     for outline in [0.0, 0.001, 0.002] {
-        let (mut num, mut held, mut held_as_marker) = (0, [0, 0], 0);
+        let (mut num, mut held) = (0, [0, 0]);
         over_cells(100, |cell, random| {
             let pairs = pairs_of_part(&cell, outline, random);
             let found = super::solve(&pairs, cell.mount, part).expect("solved");
@@ -254,11 +254,9 @@ fn an_outline_that_moves_with_the_view_is_in_the_bounds() {
             num += 1;
             held[0] += usize::from(off.shift <= found.bounds.shift);
             held[1] += usize::from(off.rotation <= found.bounds.turn);
-            let as_marker = solve(&pairs, cell.mount).expect("solved");
-            held_as_marker += usize::from(off.shift <= as_marker.bounds.shift);
             assert!(found.bounds.shift.mm() < 8.0, "{:?}", found.bounds);
         });
-        println!("{outline}: {held:?} of {num} held, {held_as_marker} as a marker");
+        println!("{outline}: {held:?} of {num} held");
         // 95 of 100, less two standard deviations for 200 cells.
         assert!(held.iter().all(|held| *held >= 184), "{outline}: {held:?}");
     }

@@ -1,3 +1,5 @@
+use std::sync::LazyLock;
+
 use nalgebra::Point3;
 
 use crate::{
@@ -14,12 +16,14 @@ fn booth(kind: PartKind, seed: u64) -> CellSetup {
     CellSetup::booth(subject, seed)
 }
 
-fn shots(num_seeds: u64) -> impl Iterator<Item = SimulatedFrame> {
+/// Shots of all kinds in turn, each with another seed.
+static SHOTS: LazyLock<Vec<SimulatedFrame>> = LazyLock::new(|| {
     let kinds = PartKind::ALL.into_iter().cycle();
-    kinds
-        .zip(0..num_seeds)
+    let shots = kinds.zip(0..48);
+    shots
         .map(|(kind, seed)| frame(&booth(kind, seed)))
-}
+        .collect()
+});
 
 #[test]
 fn the_same_seed_gives_the_same_bits_and_another_one_another_booth() {
@@ -37,7 +41,7 @@ fn the_same_seed_gives_the_same_bits_and_another_one_another_booth() {
 
 #[test]
 fn a_quarter_of_the_part_or_more_is_in_sight_and_often_not_all_of_it() {
-    let shares: Vec<f64> = shots(48).map(|shot| shot.truth.visible_share).collect();
+    let shares: Vec<f64> = SHOTS.iter().map(|shot| shot.truth.visible_share).collect();
     assert!(
         shares.iter().all(|share| (0.2..=1.0).contains(share)),
         "{shares:?}"
@@ -50,7 +54,7 @@ fn a_quarter_of_the_part_or_more_is_in_sight_and_often_not_all_of_it() {
 
 #[test]
 fn what_is_in_sight_is_what_the_picture_shows() {
-    for SimulatedFrame { frame, truth } in shots(8) {
+    for SimulatedFrame { frame, truth } in &SHOTS[..8] {
         let shown = truth.labels.iter().zip(&frame.depth);
         let is_part = |label: &SurfaceLabel| *label == SurfaceLabel::Part;
         let num_read = shown.filter(|(l, d)| is_part(l) && **d > 0).count();
@@ -66,7 +70,8 @@ fn what_is_in_sight_is_what_the_picture_shows() {
 #[test]
 fn the_stand_touches_the_part() {
     // In most frames, enough pixels for a clamp have a pixel of the stand next to one of the part, within 2 cm.
-    let num_touching = shots(24)
+    let num_touching = SHOTS[..24]
+        .iter()
         .filter(|SimulatedFrame { frame, truth }| {
             let width = frame.intrinsics.width;
             let depth = |pixel: usize| f64::from(frame.depth[pixel]) * frame.metres_per_unit;

@@ -1,7 +1,20 @@
+use std::sync::OnceLock;
+
 use nalgebra::Point3;
 
 use super::*;
 use crate::FIRST_OTHER_MAKE;
+
+/// Number of models of every part that several tests look at.
+const NUM_MODELS: usize = 24;
+
+/// The left part of one of the first models.
+fn model(kind: PartKind, model_seed: usize) -> &'static PartModel {
+    static MADE: [[OnceLock<PartModel>; NUM_MODELS]; PartKind::ALL.len()] =
+        [const { [const { OnceLock::new() }; NUM_MODELS] }; PartKind::ALL.len()];
+    let made = || PartModel::new(kind, Side::Left, model_seed as u64);
+    MADE[kind as usize][model_seed].get_or_init(made)
+}
 
 fn extents(mesh: &TriangleMesh) -> [f32; 3] {
     let first = mesh.vertices[0];
@@ -63,9 +76,9 @@ fn no_model_loses_a_web_or_closes_an_opening() {
         (mesh.vertices.len() + mesh.triangles.len()) as i64 - edges.len() as i64
     };
     for kind in PartKind::ALL {
-        let standard = euler(PartModel::new(kind, Side::Left, 0).mesh());
-        for model_seed in 1..24 {
-            let other = euler(PartModel::new(kind, Side::Left, model_seed).mesh());
+        let standard = euler(model(kind, 0).mesh());
+        for model_seed in 1..NUM_MODELS {
+            let other = euler(model(kind, model_seed).mesh());
             assert_eq!(other, standard, "{kind} model {model_seed}");
         }
     }
@@ -85,7 +98,7 @@ fn parts_have_the_size_of_a_small_cars() {
     ];
     for (kind, width, height) in ranges {
         for model_seed in 0..12 {
-            let [x, y, _] = extents(PartModel::new(kind, Side::Left, model_seed).mesh());
+            let [x, y, _] = extents(model(kind, model_seed).mesh());
             assert!(
                 (width.0..width.1).contains(&x),
                 "{kind} {model_seed} is {x} wide"
@@ -143,10 +156,10 @@ fn right_is_the_mirror_image_of_left_for_sided_parts_and_the_same_for_others() {
 #[test]
 fn another_model_seed_is_another_car_of_the_same_class() {
     for kind in PartKind::ALL {
-        let standard = PartModel::new(kind, Side::Left, 0);
+        let standard = model(kind, 0);
         assert_eq!(standard.mesh(), PartModel::new(kind, Side::Left, 0).mesh());
         for model_seed in 1..5 {
-            let other = PartModel::new(kind, Side::Left, model_seed);
+            let other = model(kind, model_seed);
             assert!(
                 num_vertices_apart(standard.mesh(), other.mesh(), 0.004) > 3,
                 "{kind}"
@@ -163,15 +176,12 @@ fn another_model_seed_is_another_car_of_the_same_class() {
 #[test]
 fn another_make_differs_more_than_another_model() {
     for kind in PartKind::ALL {
-        let standard = PartModel::new(kind, Side::Left, 0);
-        let num_apart = |model_seed| {
-            let other = PartModel::new(kind, Side::Left, model_seed);
-            num_vertices_apart(standard.mesh(), other.mesh(), 0.012)
-        };
-        let of_makes: usize = (FIRST_OTHER_MAKE..FIRST_OTHER_MAKE + 6)
-            .map(num_apart)
-            .sum();
-        let of_models: usize = (1..7).map(num_apart).sum();
+        let num_apart =
+            |other: &PartModel| num_vertices_apart(model(kind, 0).mesh(), other.mesh(), 0.012);
+        let makes = FIRST_OTHER_MAKE..FIRST_OTHER_MAKE + 6;
+        let makes = makes.map(|make| PartModel::new(kind, Side::Left, make));
+        let of_makes: usize = makes.map(|make| num_apart(&make)).sum();
+        let of_models: usize = (1..7).map(|seed| num_apart(model(kind, seed))).sum();
         assert!(of_makes > 2 * of_models, "{kind}: {of_makes}, {of_models}");
     }
 }

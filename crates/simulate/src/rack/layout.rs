@@ -85,7 +85,7 @@ struct Body {
     object: SimulatedObject,
     mesh: TriangleMesh,
     row_from_part: RigidTransform,
-    /// Where the edges of its triangles cross the lines of the front view, in the coordinates of the row.
+    /// Where the edges of its triangles cross the lines of the front view, in the coordinates of the row, line by line.
     crossings: Vec<(i64, Point3<f64>)>,
     /// Gap to what hangs to its left, in metres, with the empty places between.
     gap: f64,
@@ -109,16 +109,21 @@ impl Body {
         shift: Vector3<f64>,
         strip: &std::ops::Range<f64>,
     ) -> BTreeMap<i64, (f64, f64)> {
-        let mut depths = BTreeMap::new();
-        for (line, point) in &self.crossings {
-            let point = point + shift;
-            if strip.contains(&point.x) {
-                let (near, far) = depths.entry(*line).or_insert((point.z, point.z));
-                *near = near.min(point.z);
-                *far = far.max(point.z);
-            }
-        }
-        depths
+        let depths = self.lines().filter_map(|(line, points)| {
+            let points = points.iter().map(|(_, point)| point + shift);
+            let depths = points.filter(|p| strip.contains(&p.x)).map(|p| p.z);
+            let (near, far) = depths.fold((f64::INFINITY, f64::NEG_INFINITY), |(near, far), z| {
+                (near.min(z), far.max(z))
+            });
+            (near <= far).then_some((line, (near, far)))
+        });
+        depths.collect()
+    }
+
+    /// Returns the crossings of every line.
+    fn lines(&self) -> impl Iterator<Item = (i64, &[(i64, Point3<f64>)])> {
+        let lines = self.crossings.chunk_by(|(a, _), (b, _)| a == b);
+        lines.map(|line| (line[0].0, line))
     }
 }
 
@@ -256,7 +261,7 @@ fn pose(bodies: &[Body], shifts: &[Vector3<f64>], setup: &RackSetup) -> RigidTra
 const LINE_M: f64 = 0.005;
 
 /// Returns the points at which the edges of the triangles cross horizontal lines of the front view, with the numbers of the
-/// lines.
+/// lines, line by line.
 fn crossings(mesh: &TriangleMesh, row_from_part: &RigidTransform) -> Vec<(i64, Point3<f64>)> {
     let points = mesh.placed_vertices(|p| row_from_part * p);
     let mut crossings = Vec::new();
@@ -270,6 +275,7 @@ fn crossings(mesh: &TriangleMesh, row_from_part: &RigidTransform) -> Vec<(i64, P
             }
         }
     }
+    crossings.sort_by_key(|(line, _)| *line);
     crossings
 }
 
@@ -280,24 +286,27 @@ struct Edge(BTreeMap<i64, Point3<f64>>);
 impl Edge {
     /// Returns the right (`side` = 1) or left (-1) side of a body that is moved by `shift`.
     fn of(body: &Body, shift: Vector3<f64>, side: f64) -> Self {
-        let mut edge = Self::default();
-        for (line, point) in &body.crossings {
-            edge.add(*line, point + shift, side);
-        }
-        edge
-    }
-
-    fn add(&mut self, line: i64, point: Point3<f64>, side: f64) {
-        let outermost = self.0.entry(line).or_insert(point);
-        if side * point.x > side * outermost.x {
-            *outermost = point;
-        }
+        let outermost = |(line, points): (i64, &[(i64, Point3<f64>)])| {
+            let points = points.iter().map(|(_, point)| point + shift);
+            let outermost = points.reduce(|outermost, point| {
+                if side * point.x > side * outermost.x {
+                    point
+                } else {
+                    outermost
+                }
+            });
+            Some((line, outermost?))
+        };
+        Self(body.lines().filter_map(outermost).collect())
     }
 
     /// Adds another right side.
     fn widen(&mut self, other: &Self) {
         for (&line, &point) in &other.0 {
-            self.add(line, point, 1.0);
+            let outermost = self.0.entry(line).or_insert(point);
+            if point.x > outermost.x {
+                *outermost = point;
+            }
         }
     }
 

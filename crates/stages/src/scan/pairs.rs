@@ -6,7 +6,7 @@
 
 use nalgebra::{Point3, Vector3};
 
-use super::surface::{ShotSurface, Use};
+use super::surface::ShotSurface;
 use geometry::rigid::RigidTransform;
 
 /// The input of the registration from one shot.
@@ -73,12 +73,9 @@ pub(super) fn meet(
     let Some((column, row)) = to.pixel(&at) else {
         return ProjectedReading::Nothing;
     };
-    let Some(j) = to.reading(column, row) else {
+    let Some(j) = to.surface_reading(column, row) else {
         return ProjectedReading::Nothing;
     };
-    if to.uses[j] != Use::Surface {
-        return ProjectedReading::Nothing;
-    }
     let seen = to.points()[j].cast::<f64>();
     let normal = to.normal(j);
     let own = to_from.rotation * from.normal(i).cast::<f64>();

@@ -87,10 +87,12 @@ impl ShotSurface {
         }
         let mut normals = vec![Vector3::zeros(); points.len()];
         let mut uses = vec![Use::None; points.len()];
+        // Each is used for all its neighbours.
+        let per_z: Vec<f64> = points.iter().map(|p| 1.0 / f64::from(p.z)).collect();
         for row in 0..camera.height {
             for column in 0..camera.width {
                 let i = row * camera.width + column;
-                if let Some((normal, used)) = plane_at(&camera, points, column, row) {
+                if let Some((normal, used)) = plane_at(&camera, points, |i| per_z[i], column, row) {
                     normals[i] = normal;
                     uses[i] = used;
                 }
@@ -124,7 +126,9 @@ impl ShotSurface {
             return normals[i];
         }
         let width = self.camera.width;
-        let plane = plane_at(&self.camera, self.points(), i % width, i / width);
+        let points = self.points();
+        let per_z = |i: usize| 1.0 / f64::from(points[i].z);
+        let plane = plane_at(&self.camera, points, per_z, i % width, i / width);
         plane.map_or_else(Vector3::zeros, |(normal, _)| normal)
     }
 
@@ -152,7 +156,8 @@ impl ShotSurface {
     /// Returns column and row of the pixel that shows a camera point; `None` outside the picture.
     pub fn pixel(&self, at: &Point3<f64>) -> Option<(i64, i64)> {
         let (u, v) = self.camera.pixel_of(at)?;
-        let (u, v) = ((u + 0.5).floor(), (v + 0.5).floor());
+        // The cast truncates, so adding a half rounds.
+        let (u, v) = (u + 0.5, v + 0.5);
         let is_inside =
             u >= 0.0 && v >= 0.0 && u < self.camera.width as f64 && v < self.camera.height as f64;
         is_inside.then_some((u as i64, v as i64))
@@ -160,22 +165,31 @@ impl ShotSurface {
 
     /// Returns the index of the reading at a column and row; `None` outside the picture or without a reading.
     pub fn reading(&self, column: i64, row: i64) -> Option<usize> {
+        let i = self.place(column, row)?;
+        is_finite(&self.points()[i]).then_some(i)
+    }
+
+    /// Returns the index of the reading at a column and row that is good enough for registration.
+    pub(super) fn surface_reading(&self, column: i64, row: i64) -> Option<usize> {
+        let i = self.place(column, row)?;
+        (self.uses[i] == Use::Surface).then_some(i)
+    }
+
+    fn place(&self, column: i64, row: i64) -> Option<usize> {
         let is_inside = column >= 0
             && row >= 0
             && column < self.camera.width as i64
             && row < self.camera.height as i64;
-        if !is_inside {
-            return None;
-        }
-        let i = row as usize * self.camera.width + column as usize;
-        is_finite(&self.points()[i]).then_some(i)
+        is_inside.then(|| row as usize * self.camera.width + column as usize)
     }
 }
 
-/// Fits the normal at a reading and decides its use; `None` for a flying pixel, and where there is no reading.
+/// Fits the normal at a reading and decides its use; `None` for a flying pixel, and where there is no reading. `per_z` is
+/// 1/z of a reading.
 fn plane_at(
     camera: &Intrinsics,
     points: &[Point3<f32>],
+    per_z: impl Fn(usize) -> f64,
     column: usize,
     row: usize,
 ) -> Option<(Vector3<f32>, Use)> {
@@ -183,7 +197,7 @@ fn plane_at(
     if !is_finite(&middle) {
         return None;
     }
-    let per_z = 1.0 / f64::from(middle.z);
+    let middle_per_z = per_z(row * camera.width + column);
     // Sums of the least-squares fit of 1/z - 1/z₀ = a·du + b·dv + c, over the readings on the same surface.
     let (mut num, mut su, mut sv, mut suu, mut suv, mut svv) =
         (0_usize, 0.0, 0.0, 0.0, 0.0, 0.0_f64);
@@ -198,13 +212,14 @@ fn plane_at(
             if u < 0 || u >= camera.width as i64 {
                 continue;
             }
-            let z = points[v as usize * camera.width + u as usize].z;
+            let i = v as usize * camera.width + u as usize;
+            let z = points[i].z;
             // False without a reading, too.
             if !((z - middle.z).abs() < JUMP * middle.z) {
                 continue;
             }
             let (u, v) = ((du * STEP) as f64, (dv * STEP) as f64);
-            let w = 1.0 / f64::from(z) - per_z;
+            let w = per_z(i) - middle_per_z;
             num += 1;
             su += u;
             sv += v;
@@ -221,7 +236,7 @@ fn plane_at(
     }
     let matrix = Matrix3::new(suu, suv, su, suv, svv, sv, su, sv, num as f64);
     let [a, b, c] = (matrix.try_inverse()? * Vector3::new(suw, svw, sw)).into();
-    let at_axis = per_z + c - a * (column as f64 - camera.cx) - b * (row as f64 - camera.cy);
+    let at_axis = middle_per_z + c - a * (column as f64 - camera.cx) - b * (row as f64 - camera.cy);
     let normal = -Vector3::new(a * camera.fx, b * camera.fy, at_axis).try_normalize(1e-12)?;
     let ray = middle.coords.cast::<f64>();
     let cosine = -normal.dot(&ray) / ray.norm();

@@ -409,6 +409,9 @@ pub fn split(
             .map(move |half_width| picture.cut(half_width))
     });
     splits.flat_map(move |pieces| {
+        if pieces.len() < 2 {
+            return Vec::new();
+        }
         let mut pieces = clusters::members_of(scene, &no_other, pieces, link);
         pieces.retain(|piece| piece.cluster.area >= min_area && piece.indices.len() >= MIN_POINTS);
         if pieces.len() < 2 {
@@ -424,9 +427,8 @@ pub fn split(
             is_new
         });
         pieces
-            .into_iter()
-            .map(move |piece| SegmentedPart::of_surface(scene, piece.indices, piece.cluster, noise))
     })
+    .map(move |piece| SegmentedPart::of_surface(scene, piece.indices, piece.cluster, noise))
 }
 
 /// True if two pieces, given by ascending indices, are nearly the same.

@@ -1,18 +1,22 @@
 //! Jobs of the workspace: plan a path, simulate its film, store it; and the gun at a time on the path.
 
-use std::{path::Path, sync::Arc};
+use std::{
+    path::Path,
+    sync::{Arc, Mutex, PoisonError},
+};
 
 use glam::Vec3;
 use nalgebra::{Point3, Unit, Vector3};
 
 use crate::workspaces::paint::state::ShownPath;
 use files::write_text;
+use geometry::cloud::PointCloud;
 use inspection::library::{FileCheck, PartMeta, PartName, Side, SprayPath};
 use robot::paint::{
     Coat, Film, KeepOut, PaintError, PaintSurface, PathEdit, edited, plan, propose, simulate,
 };
-use shell::inspection::library_cache::{LibraryCache, LibraryView, LoadedLibrary, StoredPath};
-use stages::reference::Reference;
+use shell::inspection::library_cache::{LibraryCache, LibraryView, LoadedLibrary};
+use stages::reference::{Coverage, Reference};
 use ui::{
     language::{library_text, text},
     task::{TaskContext, TaskError},
@@ -104,35 +108,25 @@ pub(super) fn planned(
 ) -> Result<PaintResult, TaskError> {
     let loaded = library_cache.get();
     let (index, reference) = enrolled(&loaded, &request.part)?;
-    let (coat, regions) = (&request.coat, &request.regions);
     let PartMeta { coverage, side, .. } = loaded.shown.parts[index];
-    let surface = PaintSurface::of(reference, coverage, side).map_err(|error| match error {
-        PaintError::SideUnclear { .. } => UserError {
-            what: sentence(&library_text("enrol-side-unclear")),
-            advice: text!("paint-side-unclear-advice"),
-        },
-        error => UserError::of(&error),
-    })?;
-    context.check()?;
     let stored = loaded.shown.spray_paths.get(index).and_then(Option::as_ref);
-    let failed = |error| UserError::of(&error);
-    let (coat, path, film) = match (request.shown, stored) {
-        (ShownPath::Stored, Some(StoredPath { path, .. })) => {
-            let film = simulate(&surface, path, coat, regions).map_err(failed)?;
-            (*coat, path.clone(), film)
-        }
-        _ if is_proposal => {
-            let found = propose(&surface, coat, regions).map_err(failed)?;
-            (found.coat, found.path, found.film)
-        }
-        _ => {
-            let path = plan(&surface, coat, regions).map_err(failed)?;
-            let path = edited(path, &request.edits, coat.stand_off);
-            context.check()?;
-            let film = simulate(&surface, &path, coat, regions).map_err(failed)?;
-            (*coat, path, film)
-        }
+    let shown = stored.filter(|_| request.shown == ShownPath::Stored);
+    let job = PaintJob {
+        cloud: Arc::clone(&reference.cloud),
+        coverage,
+        side,
+        stored: shown.map(|stored| stored.path.clone()),
+        coat: request.coat,
+        regions: request.regions.clone(),
+        edits: request.edits.clone(),
+        is_proposal,
     };
+    let Painted {
+        surface,
+        coat,
+        path,
+        film,
+    } = job.painted(context)?;
     context.check()?;
     let course = GunCourse::of(&path, coat.speed);
     let planned = Planned {
@@ -153,6 +147,86 @@ pub(super) fn planned(
     } else {
         PaintResult::Planned(planned)
     })
+}
+
+/// What path and film are computed from.
+#[derive(PartialEq)]
+struct PaintJob {
+    cloud: Arc<PointCloud>,
+    coverage: Coverage,
+    side: Option<Side>,
+    /// The path, if it is not planned.
+    stored: Option<SprayPath>,
+    coat: Coat,
+    regions: Vec<KeepOut>,
+    edits: Vec<PathEdit>,
+    is_proposal: bool,
+}
+
+/// A path with its film.
+#[derive(Clone)]
+struct Painted {
+    surface: PaintSurface,
+    coat: Coat,
+    path: SprayPath,
+    film: Film,
+}
+
+/// The jobs done last, most recently first: after a step back or forth, and when a part is chosen again, its path is there
+/// at once.
+static DONE: Mutex<Vec<(PaintJob, Painted)>> = Mutex::new(Vec::new());
+/// How many are kept; each takes a megabyte or two.
+const MAX_DONE: usize = 16;
+
+impl PaintJob {
+    /// Does the job, unless it was among the last.
+    fn painted(self, context: &TaskContext<PaintResult>) -> Result<Painted, TaskError> {
+        let all = || DONE.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut done = all();
+        if let Some(index) = done.iter().position(|(job, _)| *job == self) {
+            done[..=index].rotate_right(1);
+            return Ok(done[0].1.clone());
+        }
+        drop(done);
+        let painted = self.paint(context)?;
+        let mut done = all();
+        done.truncate(MAX_DONE - 1);
+        done.insert(0, (self, painted.clone()));
+        Ok(painted)
+    }
+
+    fn paint(&self, context: &TaskContext<PaintResult>) -> Result<Painted, TaskError> {
+        let (coat, regions) = (&self.coat, &self.regions);
+        let surface = PaintSurface::of_cloud(&self.cloud, self.coverage, self.side);
+        let surface = surface.map_err(|error| match error {
+            PaintError::SideUnclear { .. } => UserError {
+                what: sentence(&library_text("enrol-side-unclear")),
+                advice: text!("paint-side-unclear-advice"),
+            },
+            error => UserError::of(&error),
+        })?;
+        context.check()?;
+        let failed = |error| UserError::of(&error);
+        let (coat, path, film) = if let Some(path) = &self.stored {
+            let film = simulate(&surface, path, coat, regions).map_err(failed)?;
+            (*coat, path.clone(), film)
+        } else if self.is_proposal {
+            let found = propose(&surface, coat, regions).map_err(failed)?;
+            (found.coat, found.path, found.film)
+        } else {
+            let path = plan(&surface, coat, regions).map_err(failed)?;
+            let path = edited(path, &self.edits, coat.stand_off);
+            context.check()?;
+            let film = simulate(&surface, &path, coat, regions).map_err(failed)?;
+            (*coat, path, film)
+        };
+        Ok(Painted {
+            surface,
+            coat,
+            path,
+            film,
+        })
+    }
 }
 
 /// Scale of the film's deviations: a view keeps whole micrometres, and films are only some micrometres thick.

@@ -5,6 +5,8 @@
 //! those of the original, and there is no cloud. They are not real parts, but ranking does the same work for them. Ten
 //! thousand take about 1 GB.
 
+use std::sync::{Mutex, PoisonError};
+
 use rand::{RngExt as _, SeedableRng as _};
 use rand_pcg::Pcg64;
 
@@ -23,24 +25,24 @@ use stages::{
 /// Number of car models whose parts are really enrolled.
 pub(super) const NUM_MODELS: u64 = 8;
 
+/// The parts enrolled so far, without clouds: they are the same for every matcher.
+static ENROLLED: Mutex<Vec<Reference>> = Mutex::new(Vec::new());
+
 /// Enrols the unperturbed parts.
 pub(super) fn originals(
     most: usize,
     watch: &dyn ProgressObserver,
 ) -> Result<Vec<Reference>, ScalingError> {
-    let mut originals = Vec::new();
-    for model_seed in 0..NUM_MODELS {
-        for kind in PartKind::ALL {
-            if watch.is_cancelled() {
-                return Err(Cancelled.into());
-            }
-            if originals.len() < most {
-                let enrolled = enrol_part(kind, Side::Left, model_seed, &EnrolParams::default())?;
-                originals.push(enrolled.without_cloud());
-            }
+    let mut enrolled = ENROLLED.lock().unwrap_or_else(PoisonError::into_inner);
+    let all = (0..NUM_MODELS).flat_map(|model| PartKind::ALL.map(|kind| (kind, model)));
+    for (kind, model) in all.take(most).skip(enrolled.len()) {
+        if watch.is_cancelled() {
+            return Err(Cancelled.into());
         }
+        let original = enrol_part(kind, Side::Left, model, &EnrolParams::default())?;
+        enrolled.push(original.without_cloud());
     }
-    Ok(originals)
+    Ok(enrolled.iter().take(most).cloned().collect())
 }
 
 /// Returns an original, or a perturbed copy of one with only the data that this matcher uses.
