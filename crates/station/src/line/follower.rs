@@ -172,8 +172,10 @@ impl Answering<'_> {
             let since = sent.at.as_secs_f64() - pose.moment.at.as_secs_f64();
             let (carried, bounds) = match sent.count {
                 None => (pose.camera_from_part, pose.bounds),
-                Some(count) => (pose.at_count(count, calibration))
-                    .unwrap_or_else(|| pose.after(since, calibration)),
+                Some(count) => pose.at_count(count, calibration).unwrap_or_else(|| {
+                    let (carried, bounds) = pose.after(since, calibration);
+                    (carried, pose.counted(bounds, calibration))
+                }),
             };
             set_pose(inspection, &carried, bounds);
             let moved = carried.translation.vector - pose.camera_from_part.translation.vector;
@@ -193,6 +195,7 @@ impl Answering<'_> {
             } else {
                 OnLine {
                     count: None,
+                    bound_mm: bounds.shift.mm(),
                     ..here
                 }
             });

@@ -41,6 +41,7 @@ fn line(change: impl FnOnce(&mut LineCalibration)) -> LineCalibration {
         slip: 0.005,
         exposure: 0.01,
         delay: 0.0,
+        delay_bound: 0.0,
     };
     change(&mut line);
     line
@@ -306,6 +307,34 @@ fn parts_side_by_side_have_a_number_each_and_one_that_is_missed_for_a_while_keep
     }
     assert_eq!(numbers, [Some(1), Some(2)]);
     assert_eq!(tracker.end(), []);
+}
+
+#[test]
+fn a_pose_at_a_count_is_as_uncertain_as_the_delay_of_the_camera() {
+    let bounds = Uncertainty {
+        shift: Metres(0.003),
+        turn: Radians(0.01),
+        freedom: None,
+    };
+    let pose = |count: Option<f64>| LinePose {
+        moment: moment(10.0, count),
+        camera_from_part: RigidTransform::identity(),
+        bounds,
+        speed: -0.2,
+        speed_bound: 0.002,
+        rate: 1.0,
+    };
+    let (exact, vague) = (line(|_| ()), line(|line| line.delay_bound = 0.02));
+    let counted = pose(Some(5000.0));
+    let bound = |line| counted.at_count(5000.0, line).expect("counted").1.shift;
+    assert_eq!(bound(&exact), bounds.shift);
+    // In that time the line moves by 4 mm.
+    assert!((bound(&vague).mm() - 5.0).abs() < 1e-9);
+    let told = |pose: LinePose, line| pose.on_line(1, line).bound_mm;
+    assert_eq!(told(counted, &exact).to_bits(), bounds.shift.mm().to_bits());
+    assert!((told(counted, &vague) - 5.0).abs() < 1e-9);
+    let uncounted = told(pose(None), &vague);
+    assert_eq!(uncounted.to_bits(), bounds.shift.mm().to_bits());
 }
 
 /// Numbers the parts of a library from 1.
