@@ -73,7 +73,7 @@ impl Advice for Refusal {
             }
             Self::Incomplete { .. } => "Send the complete request, with its body".into(),
             Self::BadBody => {
-                "Send no body, or the numbers of up to 8 expected parts, and of their places: {\"expected\": [3, 5], \"places\": [1, 2]}; or, instead, an order, a serial number or both: {\"order\": \"4711\", \"serial\": \"TL-1\"}".into()
+                "Send no body, or the numbers of up to 8 expected parts, and of their places: {\"expected\": [3, 5], \"places\": [1, 2]}; or, instead, an order, a serial number or both: {\"order\": \"4711\", \"serial\": \"TL-1\"}; on a line, a count, and how long ago it was read (0 to 10000 ms): {\"count\": 123456, \"count_age_ms\": 40}".into()
             }
             Self::TooLong => "Send no body; with a trigger, one of up to 1024 bytes".into(),
         }

@@ -151,7 +151,7 @@ impl Advice for BadRequest {
                 "Send the order once and without numbers of parts; in ascii and urscript, one with blanks in double quotes: ORDER=\"A 17\"".into()
             }
             Self::Incomplete { .. } => "Send the complete request, with its terminator".into(),
-            Self::NoNumber { .. } => "Send TRIGGER alone, or with PART, PLACE=PART, ENC=COUNT or ORDER=\"A 17\"; PATH or PART alone, or with numbers from 1".into(),
+            Self::NoNumber { .. } => "Send TRIGGER alone, or with PART, PLACE=PART, ENC=COUNT, ENC=COUNT@MILLISECONDS (0 to 10000, since it was read) or ORDER=\"A 17\"; PATH or PART alone, or with numbers from 1".into(),
             Self::Magic => "Begin the frame with the bytes 50 53 52 51".into(),
             Self::Version { found, order } => {
                 let other = match order {

@@ -105,7 +105,7 @@ impl Answering<'_> {
         Ok((frame.in_order(line.tracker.line()), recorded))
     }
 
-    /// Answers a trigger with the poses of the parts on a line when it came, at the count that was sent with it; without a
+    /// Answers a trigger with the poses of the parts on a line at the count that was sent with it, when that was read; without a
     /// count, with those of the frame. It takes frames until a part counts, nothing hangs there, or the time is over. Also
     /// returns what to record. `next` captures a frame after the trigger.
     pub fn answer_on_line<E>(
@@ -124,6 +124,7 @@ impl Answering<'_> {
             let seen = next().and_then(|(captured, subject)| {
                 let sent = *sent.get_or_insert_with(|| {
                     let at = self.camera.asked_at(asked, &captured);
+                    let at = at.saturating_sub(asked.count_age);
                     let count = asked.count.map(|count| line.counts.read(at, count.into()));
                     let count = count.map(|count| count as f64);
                     Moment { at, count }
@@ -224,10 +225,13 @@ impl Answering<'_> {
     }
 }
 
-/// The moment of a time by the camera's clock, which showed that of `sent` when the trigger came.
+/// The moment of a time by the camera's clock, which showed that of `sent` when the count of the trigger was read.
 fn instant_of(at: Duration, asked: &Asked, sent: &Moment) -> Instant {
     let (after, before) = (at.saturating_sub(sent.at), sent.at.saturating_sub(at));
-    (asked.at + after).checked_sub(before).unwrap_or(asked.at)
+    let counted_at = asked.counted_at();
+    (counted_at + after)
+        .checked_sub(before)
+        .unwrap_or(counted_at)
 }
 
 #[cfg(test)]

@@ -515,10 +515,14 @@ fn triggers_are_answered_at_their_counts_though_frames_are_delayed_and_arrive_la
         for (k, later) in arrive_later.iter().cycle().enumerate().take(7) {
             let asked_at = start + 0.4 * k as f64;
             let exposed = asked_at + 0.1;
+            // Some come a little after their counts were read.
+            let count_age = Duration::from_millis(40 * (k as u64 % 3));
+            let came_at = Duration::from_secs_f64(asked_at) + count_age;
             let asked = Asked {
-                at: begin.0 + Duration::from_secs_f64(asked_at),
-                by_clock: begin.1 + Duration::from_secs_f64(asked_at),
+                at: begin.0 + came_at,
+                by_clock: begin.1 + came_at,
                 count: Some(Counter::Bits32.shown(simulated.count(asked_at))),
+                count_age,
                 ..Asked::now()
             };
             let stamped = Duration::from_secs_f64(exposed + delay);
@@ -549,7 +553,9 @@ fn triggers_are_answered_at_their_counts_though_frames_are_delayed_and_arrive_la
             assert_eq!(found.verdict, VerdictCode::Accepted, "{:?}", found.problem);
             let here = found.on_line.expect("on a line");
             assert_eq!((here.number, here.count), (1, asked.count));
-            assert_eq!(found.on_line_since, Some(asked.at));
+            assert_eq!(found.on_line_since, Some(asked.counted_at()));
+            let counted_at = asked.by_clock - count_age;
+            assert_eq!(here.at.as_millisecond(), counted_at.as_millisecond());
             let truth = simulated.pose_of(0, asked_at) * enrolment_pose().inverse();
             let reference = library.references.iter().find(|one| one.name == found.part);
             let middle = reference.and_then(Reference::middle).expect("points");
