@@ -297,6 +297,30 @@ fn a_number_that_is_missing_is_not_zero() {
 }
 
 #[test]
+fn joints_that_are_no_numbers_are_not_known() {
+    let flange = RigidTransform::translation(0.3, 0.4, 0.5);
+    let reported = |first: f64| {
+        let report = egm::Robot {
+            header: Some(egm::Header {
+                number: Some(7),
+                ..Default::default()
+            }),
+            feedback: Some(egm::Position {
+                joints: Some(egm::Angles {
+                    values: vec![first, 10.0, 20.0, 0.0, 30.0, 0.0],
+                }),
+                pose: Some(egm::Pose::new(&flange)),
+            }),
+            ..Default::default()
+        };
+        let bytes = prost::Message::encode_to_vec(&report);
+        let read = Egm::default().receive(&bytes).expect("read");
+        read.expect("a report").joints.is_some()
+    };
+    assert!(reported(0.0) && !reported(f64::NAN) && !reported(f64::INFINITY));
+}
+
+#[test]
 fn a_controller_that_lacks_a_register_or_has_it_in_use_is_refused() {
     for (kind, wanted) in [
         ("NOT_FOUND", "actual_TCP_pose"),
