@@ -2,20 +2,25 @@
 
 use std::{env, fs, path::Path, time::Duration};
 
-use nalgebra::Point3;
+use nalgebra::{Point3, Unit, Vector3};
 use partsight::{
-    CellSetup, DepthFrame, Grid, Intrinsics, LibraryFolder, PartKind, PointCloud, RigidTransform,
-    Side,
+    CellSetup, DepthFrame, Grid, Intrinsics, LibraryFolder, Metres, PartKind, PointCloud, Radians,
+    RigidTransform, Side,
     capture::{NextCapture, Recorder},
     files::{crc32, save_cloud, write_depth_png},
     geometry::rigid::row_major,
     open_source,
     paint::built_in_coat,
     pipeline::RecipeFile,
-    robot::calibration::{CameraPlace, CellCalibration, Origin},
+    robot::{
+        arm::{Arm, GUN_RADIUS_M, Obstacles, PlacedArm},
+        calibration::{CameraPlace, CellCalibration, Origin},
+        line::{Counter, LineCalibration},
+    },
     simulated_frame,
 };
 use serve::{ByteOrder, Request, binary_request};
+use servo::simulated::{ArmDynamics, SimulatedArm, SimulatedController, StreamProtocol};
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
@@ -39,6 +44,7 @@ pub(crate) fn fill(root: &Path) -> Outcome {
         ("open", open as fn(&Path) -> Outcome),
         ("texts", texts),
         ("requests", requests),
+        ("streams", streams),
         ("inspect", inspect),
     ] {
         let folder = root.join(target);
@@ -139,6 +145,23 @@ fn texts(folder: &Path) -> Outcome {
         };
         calibration.save(&folder.join(format!("calibration{number}")))?;
     }
+    let line = LineCalibration {
+        direction: Unit::new_normalize(Vector3::new(-1.0, 0.0, 0.1)),
+        direction_bound: Radians(0.001),
+        way_per_count: Metres(0.0001),
+        scale_bound: 0.002,
+        counter: Counter::Bits16,
+        residual: Metres(0.001),
+        num_poses: 12,
+        way: Metres(0.6),
+        part: "fender".into(),
+        made_at: jiff::Timestamp::UNIX_EPOCH,
+        slip: 0.005,
+        exposure: 0.03,
+        delay: 0.08,
+        delay_bound: 0.02,
+    };
+    line.save(&folder.join("line"))?;
     let beside = tempfile::tempdir()?;
     let image = beside.path().join("depth.png");
     write_depth_png(&image, &small_depth())?;
@@ -166,6 +189,9 @@ fn texts(folder: &Path) -> Outcome {
         ("stripe", "offset_mm,thickness_um\n-50,3\n0,40\n50,3\n".to_owned()),
         ("arm-model", "name = \"Cell 3\"\nlengths_mm = [150, -200, 0, 505, 760, 795, 100]\noffsets_deg = [0, 0, -90, 0, 0, 180]\nsigns = [1, 1, -1, -1, -1, -1]\nlimits_deg = [[-180, 180], [-105, 155], [-86, 160], [-200, 200], [-155, 150], [-455, 455]]\nspeeds_deg_s = [210, 210, 265, 420, 420, 885]\naccelerations_deg_s2 = [600, 600, 700, 1500, 1500, 2500]\n[rail]\ndirection = [0, 1, 0]\nfrom_mm = -2000\nto_mm = 2000\nspeed_mm_s = 1000\nacceleration_mm_s2 = 2000\n".to_owned()),
         ("obstacles", "floor_mm = -600\n[[box]]\nname = \"hanger\"\ncentre_mm = [1200, 0, 1900]\nsize_mm = [1500, 100, 100]\nangles_deg = [0, 0, 30]\n".to_owned()),
+        ("rack", "schema_version = 1\nname = \"rack A\"\nframe = \"base\"\n[[volume]]\ncentre_mm = [0, 100, 2200]\nsize_mm = [2400, 1800, 900]\nangles_deg = [0, 0, 5]\n[[place]]\nname = \"left hook\"\ncentre_mm = [-600, 0, 2200]\nsize_mm = [300, 300, 300]\nmax_turn_deg = [10, 180, 10]\nparts = [{ name = \"fender\", angles_deg = [180, 0, 5] }, { name = \"grille\" }]\n".to_owned()),
+        ("counts", "# frame; count\nframe-01.png; 40211\nframe-02.png; -40893\n".to_owned()),
+        ("orders", "order;serial;parts\n4711;;fender|grille\n4711;TL-1;left hook=fender\n".to_owned()),
         ("sequence", "# timestamp filename\n1305031102.160400 depth/0.png\n".to_owned()),
     ] {
         fs::write(folder.join(name), text)?;
@@ -178,6 +204,14 @@ fn requests(folder: &Path) -> Outcome {
     for (name, text) in [
         ("trigger", "TRIGGER\r\nTRIGGER 3 5\nTRIGGER 1=3 2=5\n"),
         ("order", "TRIGGER ORDER=\"A 17\" SERIAL=TL-1 ENC=7\n"),
+        (
+            "count",
+            "TRIGGER ENC=123456@40\n<Robot><Request>TRIGGER</Request><Count Age=\"40\">7</Count></Robot>",
+        ),
+        (
+            "eki-count",
+            "<Robot><Request>TRIGGER</Request><Count Age=\"40\">-7</Count></Robot>",
+        ),
         ("path", "STATUS\nLAST\nPATH 12 41\nPART 2\n"),
         (
             "servo",
@@ -215,6 +249,43 @@ fn requests(folder: &Path) -> Outcome {
         }
         frame.extend(number(&crc32(&frame).to_le_bytes()));
         fs::write(folder.join(format!("{name}-servo")), frame)?;
+    }
+    Ok(())
+}
+
+/// What controllers send from the opening of the connection to the first report, with the arm at several places.
+fn streams(folder: &Path) -> Outcome {
+    let placed = PlacedArm {
+        arm: Arm::named("irb4600")?,
+        robot_from_base: RigidTransform::identity(),
+        flange_from_nozzle: RigidTransform::translation(0.0, 0.0, 0.2),
+        gun_radius: GUN_RADIUS_M,
+        obstacles: Obstacles::default(),
+    };
+    let places = [
+        [0.2, 0.3, 0.1, 0.3, 0.7, -0.2],
+        [0.0, 0.4, 0.2, 0.0, -1.5, 0.0],
+        [-0.8, 0.1, 0.3, -0.2, 0.9, 2.0],
+    ];
+    for (number, joints) in places.into_iter().enumerate() {
+        for protocol in StreamProtocol::ALL {
+            let arm = SimulatedArm::new(placed.clone(), joints, ArmDynamics::default());
+            let arm = arm.ok_or("the joints are not finite")?;
+            let mut controller = SimulatedController::new(arm, placed.clone(), protocol);
+            let mut stream = protocol.stream(&placed);
+            let mut sent = Vec::new();
+            loop {
+                let request = stream.requests();
+                if request.is_empty() {
+                    break;
+                }
+                let answer = controller.take(&request)?;
+                stream.receive(&answer)?;
+                sent.extend(answer);
+            }
+            sent.extend(controller.report());
+            fs::write(folder.join(format!("{}-{number}", protocol.name())), sent)?;
+        }
     }
     Ok(())
 }

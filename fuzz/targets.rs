@@ -9,22 +9,27 @@ use std::{
 
 use nalgebra::Point3;
 use partsight::{
-    Grid, Image, Library, LibraryFolder, PointCloud, Recipe, Unwatched, Verdict,
+    Grid, Image, Library, LibraryFolder, PointCloud, Recipe, RigidTransform, Unwatched, Verdict,
     capture::Replay,
     files::{DepthCamera, FileError, open_bytes},
+    geometry::rigid::is_finite,
     library::SprayPath,
+    orders::Orders,
     paint::{Coat, read_stripe},
     pipeline::{RecipeFile, Unrecognisable},
+    rack::RackFile,
     robot::{
         Convention,
-        arm::{Arm, Obstacles},
+        arm::{Arm, GUN_RADIUS_M, Obstacles, PlacedArm},
         calibration::CellCalibration,
         frame_poses::read_frame_poses,
-        pairs::{PairConventions, read_arm_poses, read_pairs},
+        line::LineCalibration,
+        pairs::{PairConventions, read_arm_poses, read_counts, read_pairs},
     },
     run, scene_from_image,
 };
 use serve::{Protocol, Request};
+use servo::simulated::StreamProtocol;
 
 /// Runs the readers of clouds, meshes and depth images; the content decides which.
 pub(crate) fn open(bytes: &[u8]) {
@@ -35,7 +40,7 @@ pub(crate) fn open(bytes: &[u8]) {
 }
 
 /// Runs the readers of all other text files: cameras, calibrations, poses, spray paths, recipes, coats, arms,
-/// obstacles, lists of recordings and sequences.
+/// obstacles, racks, lines, orders, lists of recordings and sequences.
 pub(crate) fn texts(bytes: &[u8]) {
     let folder = tempfile::tempdir().expect("a folder");
     // A recording's list begins with JSON; the other readers ignore the file name.
@@ -60,6 +65,10 @@ pub(crate) fn texts(bytes: &[u8]) {
     let _ = read_stripe(&path);
     let _ = Arm::read(&path);
     let _ = Obstacles::read(&path);
+    let _ = RackFile::read(&path);
+    let _ = LineCalibration::load(&path);
+    let _ = read_counts(&path);
+    let _ = Orders::read(&path);
     let spec = format!("recording:{}", folder.path().display());
     if let Ok(partsight::SourceSpec::Recording(spec)) = spec.parse() {
         let _ = Replay::open(&spec);
@@ -88,6 +97,42 @@ pub(crate) fn requests(bytes: &[u8]) {
                 None => {}
             }
             rest = &rest[parsed.used..];
+        }
+    }
+}
+
+static ARM: OnceLock<PlacedArm> = OnceLock::new();
+
+fn arm() -> PlacedArm {
+    PlacedArm {
+        arm: Arm::named("irb4600").expect("built in"),
+        robot_from_base: RigidTransform::identity(),
+        flange_from_nozzle: RigidTransform::translation(0.0, 0.0, 0.2),
+        gun_radius: GUN_RADIUS_M,
+        obstacles: Obstacles::default(),
+    }
+}
+
+/// Takes what robots report that take a stream of poses, in every protocol, in one piece and in many, and answers each report.
+pub(crate) fn streams(bytes: &[u8]) {
+    let arm = ARM.get_or_init(arm);
+    for (protocol, size) in StreamProtocol::ALL
+        .into_iter()
+        .flat_map(|protocol| [bytes.len().max(1), 13].map(|size| (protocol, size)))
+    {
+        let mut stream = protocol.stream(arm);
+        for piece in bytes.chunks(size) {
+            let _ = stream.requests();
+            let report = match stream.receive(piece) {
+                Ok(Some(report)) => report,
+                // The connection is closed; packets are independent of each other.
+                Err(_) if protocol == StreamProtocol::Rtde => break,
+                Ok(None) | Err(_) => continue,
+            };
+            assert!(is_finite(&report.robot_from_flange), "{report:?}");
+            let mut angles = report.joints.iter().flatten();
+            assert!(angles.all(|angle| angle.is_finite()), "{report:?}");
+            assert!(!stream.answer(&report.robot_from_flange, false).is_empty());
         }
     }
 }

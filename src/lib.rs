@@ -53,7 +53,7 @@ pub use inspection::{library, pipeline, rack};
 #[doc(hidden)]
 pub use plant;
 #[doc(hidden)]
-pub use records::{cases, history, report};
+pub use records::{cases, history, orders, report};
 #[doc(hidden)]
 pub use robot::{self, paint};
 #[cfg(feature = "cli")]

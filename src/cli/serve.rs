@@ -3,6 +3,7 @@
 mod session;
 
 use std::{
+    collections::BTreeMap,
     net::{Ipv4Addr, SocketAddr, SocketAddrV4},
     sync::{
         Arc,
@@ -17,9 +18,9 @@ use self::session::ServeSession;
 use super::{
     LibraryChoice, Outcome,
     calibrate::{CalibrationChoice, LineChoice, no_calibration},
-    console::{Advised as _, Console, with_advice},
+    console::{Advised as _, Console, advised_error, with_advice},
     expect::ExpectChoice,
-    input::{EmptyCellChoice, within},
+    input::{EmptyCellChoice, parse_name, within},
     interrupt::Interrupt,
     numbers::NumbersChoice,
     output::{Columns, OutputFormat},
@@ -27,7 +28,7 @@ use super::{
     rack::RackFileChoice,
     recipe::RecipeChoice,
     record::RecordingChoice,
-    servo_choice::ServoChoice,
+    servo_choice::{ServoChoice, TrialChoice},
     trace::TraceChoice,
 };
 use capture::{OpenNiSpec, Pace, RealsenseSpec, RecordingSpec, SourceSpec};
@@ -35,11 +36,15 @@ use geometry::{
     rigid::PoseDelta,
     units::{Metres, Radians},
 };
-use inspection::{library::LibraryLoad, pipeline::MirrorTally};
+use inspection::{
+    library::{Library, LibraryLoad, PartName},
+    pipeline::MirrorTally,
+};
+use robot::{Convention, RobotFrame, RobotValue};
 use serve::{ClientEvent, ListenAddress, Listener, Protocol, Server, ServerSettings};
 use station::{
     Camera, CameraScenes, LineFollower, NumberedPart, PartFinder,
-    servoing::{SetupError, SingleMoves, check_source},
+    servoing::{CarriedCamera, ServoSetup, SetupError, SingleMoves, check_source},
 };
 
 /// Answer robots and PLCs that ask over TCP for an inspection and a pose
@@ -51,6 +56,7 @@ Examples:
   partsight serve --source kinect --listen ascii=30100 --listen urscript=192.168.1.10:30102 --as abb
   partsight serve --source simulated:fender --as kuka --calibration cell.toml --json
   partsight serve --source kinect --as kuka --calibration cell.toml --line line.toml
+  partsight serve --simulated fender --as kuka     a camera on a simulated arm, to try a program that servoes
   printf 'TRIGGER\\n' | nc 127.0.0.1 30100
 
 Protocols, each on its own port; docs/guide/robots_that_ask.md describes them in full:
@@ -66,7 +72,8 @@ Requests:
   TRIGGER ORDER=4711 SERIAL=TL-0042
                        the parts of this order in the table of --orders should hang there; one of
                        order and serial number suffices
-  TRIGGER ENC=123456   gives the poses at this count of the encoder of the --line
+  TRIGGER ENC=123456   gives the poses at this count of the encoder of the --line; ENC=123456@40 if it
+                       was read 40 ms ago
   PART 2               the second part of that frame
   LAST                 the first answer again
   STATUS               the state of the camera
@@ -87,8 +94,8 @@ Connections are neither encrypted nor authenticated. Without an address, only pr
 Exit codes: 0 ended by Ctrl-C, 2 could not run.")]
 pub(super) struct ServeArgs {
     /// The camera, recording or watched folder whose frames are inspected (partsight capture --help)
-    #[arg(long, value_name = "SOURCE", value_parser = parse_running_source)]
-    source: SourceSpec,
+    #[arg(long, value_name = "SOURCE", value_parser = parse_running_source, required_unless_present = "simulated")]
+    source: Option<SourceSpec>,
     /// Protocol and port, or IP address and port; may be given several times; default: ascii=30100, unless --http is given
     #[arg(long, value_name = "PROTOCOL=PORT", value_parser = parse_listen)]
     listen: Vec<ListenAddress>,
@@ -136,6 +143,11 @@ pub(super) struct ServeArgs {
     /// Longest move of a robot that servoes, mm (10 to 300); it turns by up to a tenth of a degree for each
     #[arg(long, value_name = "MM", default_value_t = 100.0, value_parser = |text: &str| within(text, &(10.0..=300.0)), help_heading = SERVOING)]
     longest_move: f64,
+    /// A camera on a simulated arm instead, which looks at this part from where a robot says with SERVO that it stands
+    #[arg(long, value_name = "PART", value_parser = parse_name, conflicts_with_all = ["source", "calibration", "robot_pose", "empty_cell", "seen_as", "arm", "nozzle", "volume"], help_heading = SERVOING)]
+    simulated: Option<PartName>,
+    #[command(flatten, next_help_heading = SERVOING)]
+    trial: TrialChoice,
     #[command(flatten, next_help_heading = SERVOING)]
     servo: ServoChoice,
 }
@@ -161,19 +173,77 @@ impl ServeArgs {
         }
     }
 
+    /// The camera, with what follows from its place.
+    fn eye(&self, library: &Library, console: &Console) -> anyhow::Result<Eye> {
+        match (&self.source, &self.simulated) {
+            (_, Some(part)) => {
+                let trial = self.trial.trial();
+                let carried = CarriedCamera::arrange(part.as_str(), library, trial).advised()?;
+                let (target, params) = (self.servo.target(console)?, self.servo.usual_params()?);
+                let source = carried.source();
+                Ok(Eye {
+                    robot: carried.frame(),
+                    servoing: Ok(self.moves(carried.setup(target, params), &source)?),
+                    source,
+                    carried: Some(carried),
+                })
+            }
+            (Some(source), None) => {
+                let Some(robot) = self.calibration.frame(console)? else {
+                    return Err(no_calibration("serve"));
+                };
+                Ok(Eye {
+                    robot,
+                    servoing: self.servoing(source, console)?,
+                    source: source.clone(),
+                    carried: None,
+                })
+            }
+            (None, None) => Err(advised_error(
+                "no camera is named",
+                "Give one with --source, or try a simulated one with --simulated",
+            )),
+        }
+    }
+
     /// What robots that servo are answered with, or why they are not.
-    fn servoing(&self, console: &Console) -> anyhow::Result<Result<SingleMoves, SetupError>> {
-        if let Err(why) = check_source(&self.source) {
+    fn servoing(
+        &self,
+        source: &SourceSpec,
+        console: &Console,
+    ) -> anyhow::Result<Result<SingleMoves, SetupError>> {
+        if let Err(why) = check_source(source) {
             return Ok(Err(why));
         }
         let setup = self.servo.setup(self.calibration.path(), console)?;
+        self.moves(setup, source).map(Ok)
+    }
+
+    fn moves(&self, setup: ServoSetup, source: &SourceSpec) -> anyhow::Result<SingleMoves> {
         let max_move = PoseDelta {
             shift: Metres::from_mm(self.longest_move),
             rotation: Radians::from_degrees(DEGREES_PER_MM * self.longest_move),
         };
-        SingleMoves::new(setup, max_move, self.source.to_string())
-            .map(Ok)
-            .advised()
+        SingleMoves::new(setup, max_move, source.to_string()).advised()
+    }
+}
+
+/// The camera of a service, with what follows from its place.
+struct Eye {
+    source: SourceSpec,
+    robot: RobotFrame,
+    servoing: Result<SingleMoves, SetupError>,
+    /// The camera on a simulated arm, if that is it.
+    carried: Option<CarriedCamera>,
+}
+
+impl Eye {
+    fn start(&self) -> anyhow::Result<Camera> {
+        match &self.carried {
+            Some(carried) => carried.start(),
+            None => Camera::start(&self.source),
+        }
+        .advised()
     }
 }
 
@@ -219,11 +289,8 @@ pub(super) fn run(args: &ServeArgs, console: &mut Console) -> anyhow::Result<Out
     let trace = args.trace.of_parts(None)?;
     let database = args.recording.database(console)?;
     let (place, load) = (args.library).load_placed(&recipe.reference_params(), console)?;
-    let Some(robot) = args.calibration.frame(console)? else {
-        return Err(no_calibration("serve"));
-    };
-    let servoing = args.servoing(console)?;
-    let recipe = (args.rack).before(recipe, &load.library, Some(&robot))?;
+    let eye = args.eye(&load.library, console)?;
+    let recipe = (args.rack).before(recipe, &load.library, Some(&eye.robot))?;
     let orders = args.expect.orders()?;
     let recipe = if orders.is_some() && trace.order.is_empty() {
         // Each trigger has to name its order.
@@ -234,11 +301,15 @@ pub(super) fn run(args: &ServeArgs, console: &mut Console) -> anyhow::Result<Out
     let parts = args.numbers.parts(&place, &load, console)?;
     let empty_cell = args.empty_cell.open(console)?;
     let line = args.line.load()?;
-    let camera = Arc::new(Camera::start(&args.source).advised()?);
+    let camera = Arc::new(eye.start()?);
     let interrupt = Interrupt::listen()?;
     let (mut server, events) = start(args, &listeners, &camera)?;
     let recording = (args.recording).start(&load, &trace, database, console)?;
-    announce(&server, &listeners, &args.source, &parts, &load, console);
+    announce(&server, &listeners, &eye.source, &parts, &load, console);
+    if let Some(carried) = &eye.carried {
+        args.trial.announce(console);
+        announce_flange(carried, &listeners, console);
+    }
     for (number, place) in (1..).zip(&recipe.rack.places) {
         console.note(&format_args!("  place {number}: {}", place.name));
     }
@@ -261,15 +332,16 @@ pub(super) fn run(args: &ServeArgs, console: &mut Console) -> anyhow::Result<Out
         recipe,
         finder: PartFinder {
             parts,
-            robot,
+            robot: eye.robot,
             kind: args.numbers.kind(),
         },
-        servoing,
+        servoing: eye.servoing,
+        carried: eye.carried,
         orders,
         traced: trace.clone(),
         trace,
         scenes: CameraScenes::new(empty_cell),
-        source: args.source.clone(),
+        source: eye.source,
         line: line.map(LineFollower::new),
         frame_timeout: Duration::from_secs_f64(args.frame_timeout),
         format,
@@ -314,6 +386,20 @@ fn announce(
         );
     }
     show_numbers(parts, load, console);
+}
+
+/// Shows where the flange of a simulated arm stands, once in each convention that is spoken, in the numbers of a SERVO request.
+fn announce_flange(carried: &CarriedCamera, listeners: &[Listener], console: &Console) {
+    let flange = carried.flange();
+    let conventions: BTreeMap<&str, Convention> = (listeners.iter())
+        .map(|listener| (listener.convention.name(), listener.convention))
+        .collect();
+    for convention in conventions.into_values() {
+        let written = convention.write(&flange);
+        let numbers: Vec<String> = written.values.iter().map(RobotValue::rounded).collect();
+        let (numbers, convention) = (numbers.join(" "), convention.title());
+        console.note(&format_args!("Flange: {numbers}, as {convention}"));
+    }
 }
 
 /// Shows the part numbers for robots, in their order.

@@ -13,7 +13,7 @@ use super::{
     interrupt::Interrupt,
     recipe::RecipeChoice,
     record::{HistoryChoice, HistoryRecorder},
-    servo_choice::ServoChoice,
+    servo_choice::{ServoChoice, TrialChoice},
 };
 use capture::{BackpressurePolicy, Feed, SourceSpec};
 use geometry::{error::Advice as _, rigid::PoseDelta};
@@ -34,6 +34,7 @@ use texts::Message;
 #[command(after_help = "\
 Examples:
   partsight servo fender --simulated                                       a simulated robot, to see how it works
+  partsight servo fender --simulated --delay 150 --hand-eye 10,1           one that sees late
   partsight servo fender --source kinect --robot egm=192.168.1.10:6510
   partsight servo fender --source kinect --robot ur=192.168.1.20 --speed 100
   partsight servo fender --source kinect --robot rsi=192.168.1.10:49152 --arm kr16.toml --nozzle \"kuka 0 0 200 0 0 0\"
@@ -59,9 +60,8 @@ pub(super) struct ServoArgs {
     /// Move a simulated robot with a camera instead, in this protocol
     #[arg(long, value_name = "PROTOCOL", value_parser = parse_protocol, num_args = 0..=1, default_missing_value = "egm", conflicts_with_all = ["robot", "source", "target", "seen_as", "arm", "nozzle", "volume"])]
     simulated: Option<StreamProtocol>,
-    /// Seed of the simulated start
-    #[arg(long, value_name = "N", default_value_t = 1, requires = "simulated")]
-    seed: u64,
+    #[command(flatten)]
+    trial: TrialChoice,
     /// The camera (partsight capture --help)
     #[arg(long, value_name = "SOURCE", value_parser = parse_source)]
     source: Option<SourceSpec>,
@@ -121,11 +121,10 @@ pub(super) fn run(args: &ServoArgs, console: &mut Console) -> anyhow::Result<Out
         real(args, part, (*robot, source), &recipe, &interrupt, console)?
     } else {
         let protocol = args.simulated.unwrap_or(StreamProtocol::Egm);
-        console.note(
-            &"Simulated: an arm carries the camera; its calibration is wrong by up to 20 mm and 2°",
-        );
+        args.trial.announce(console);
         let params = args.choice.params(args.speed)?;
-        let outcome = servo_simulated(&job, &params, protocol, args.seed, |news| {
+        let trial = args.trial.trial();
+        let outcome = servo_simulated(&job, &params, protocol, &trial, |news| {
             show_news(news, args, console);
             order(&interrupt, console)
         });

@@ -1,6 +1,9 @@
 //! What servoing needs to know besides the part, as options of `servo` and `serve`.
 
-use std::path::{Path, PathBuf};
+use std::{
+    path::{Path, PathBuf},
+    time::Duration,
+};
 
 use clap::Args;
 
@@ -10,14 +13,17 @@ use super::{
     input::{Choice, choice, from_to, open_scene, parse_nozzle_pose, warn_of, within},
     program::CellChoice,
 };
-use geometry::{oriented_box::OrientedBox, units::Metres};
+use geometry::{
+    oriented_box::OrientedBox,
+    units::{Metres, Radians},
+};
 use robot::{
     WrittenPose,
     arm::{Arm, PlacedArm},
     program::ProgramParams,
 };
-use servo::ServoParams;
-use station::servoing::{ServoSetup, ServoTarget};
+use servo::{ServoParams, simulated::HandEyeError};
+use station::servoing::{ServoSetup, ServoTarget, SimulatedTrial};
 
 /// Where the part should be, and what the robot is kept clear of.
 #[derive(Debug, Args)]
@@ -67,6 +73,66 @@ const TARGETS: [Choice<NamedTarget>; 2] = [
     ("path-start", "The nozzle at the first point of the part's spray path; needs --nozzle, and a calibration from pairs", NamedTarget::PathStart),
 ];
 
+/// The simulated robot that is tried.
+#[derive(Debug, Args)]
+pub(super) struct TrialChoice {
+    /// Seed of the simulated start
+    #[arg(long, value_name = "N", default_value_t = SimulatedTrial::default().seed, requires = "simulated")]
+    seed: u64,
+    #[arg(
+        long, value_name = "MS", requires = "simulated",
+        help = format!("How much later than it was taken a simulated frame counts, at least, ms ({})", from_to(&SimulatedTrial::DELAYS_MS)),
+        default_value_t = 1000.0 * SimulatedTrial::default().delay.as_secs_f64(),
+        value_parser = |text: &str| within(text, &SimulatedTrial::DELAYS_MS),
+    )]
+    delay: f64,
+    /// By how much the calibration of the simulated camera is wrong at most: mm and degrees; default: 20,2
+    #[arg(long, value_name = "MM,DEG", value_parser = parse_hand_eye, requires = "simulated")]
+    hand_eye: Option<HandEyeError>,
+    #[arg(
+        long, value_name = "DEG", requires = "simulated",
+        help = format!("Play of each joint of the simulated arm, degrees ({}); default: 0.006", from_to(&SimulatedTrial::PLAYS_DEG)),
+        value_parser = |text: &str| within(text, &SimulatedTrial::PLAYS_DEG),
+    )]
+    backlash: Option<f64>,
+}
+
+fn parse_hand_eye(text: &str) -> Result<HandEyeError, String> {
+    let (shifts, turns) = (SimulatedTrial::SHIFTS_MM, SimulatedTrial::TURNS_DEG);
+    let numbers = text
+        .split_once(',')
+        .and_then(|(shift, turn)| Some((within(shift, &shifts).ok()?, within(turn, &turns).ok()?)));
+    let (shift, turn) = numbers.ok_or_else(|| {
+        let (shifts, turns) = (from_to(&shifts), from_to(&turns));
+        format!("expected MM,DEG: {shifts} mm and {turns} degrees, such as 20,2")
+    })?;
+    Ok(HandEyeError {
+        shift: Metres::from_mm(shift),
+        turn: Radians::from_degrees(turn),
+    })
+}
+
+impl TrialChoice {
+    pub(super) fn trial(&self) -> SimulatedTrial {
+        let usual = SimulatedTrial::default();
+        SimulatedTrial {
+            seed: self.seed,
+            delay: Duration::from_secs_f64(self.delay / 1000.0),
+            hand_eye: self.hand_eye.unwrap_or(usual.hand_eye),
+            play: self.backlash.map_or(usual.play, Radians::from_degrees),
+        }
+    }
+
+    /// Says what is simulated.
+    pub(super) fn announce(&self, console: &Console) {
+        let HandEyeError { shift, turn } = self.trial().hand_eye;
+        let (mm, degrees) = (shift.mm(), turn.degrees());
+        console.note(&format_args!(
+            "Simulated: an arm carries the camera; its calibration is wrong by up to {mm:.1} mm and {degrees:.1}°"
+        ));
+    }
+}
+
 fn parse_volume(text: &str) -> Result<OrientedBox, String> {
     let numbers = text.split([',', ' ']).filter(|number| !number.is_empty());
     let numbers: Option<Vec<f64>> = numbers.map(|number| number.parse().ok()).collect();
@@ -95,8 +161,13 @@ impl ServoChoice {
             flange_from_nozzle: self.nozzle.as_ref().map(|nozzle| nozzle.pose),
             placed: self.placed()?,
             volume: self.volume,
-            params: self.params(1000.0 * ServoParams::default().limits.speed)?,
+            params: self.usual_params()?,
         })
+    }
+
+    /// The parameters with the usual speed.
+    pub(super) fn usual_params(&self) -> anyhow::Result<ServoParams> {
+        self.params(1000.0 * ServoParams::default().limits.speed)
     }
 
     /// The parameters with these limits.
@@ -114,7 +185,7 @@ impl ServoChoice {
         placed.map(Some)
     }
 
-    fn target(&self, console: &Console) -> anyhow::Result<ServoTarget> {
+    pub(super) fn target(&self, console: &Console) -> anyhow::Result<ServoTarget> {
         if self.seen_as.is_empty() {
             return Ok(match self.target {
                 Some(NamedTarget::PathStart) => ServoTarget::PathStart,

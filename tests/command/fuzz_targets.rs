@@ -18,6 +18,7 @@ fn every_target_takes_its_seeds() {
         ("open", targets::open as fn(&[u8])),
         ("texts", targets::texts),
         ("requests", targets::requests),
+        ("streams", targets::streams),
         ("inspect", targets::inspect),
     ] {
         let mut num = 0;

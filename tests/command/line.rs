@@ -44,7 +44,56 @@ fn a_line_is_calibrated_from_frames_and_counts_and_refused_with_what_to_do() {
         "{text}"
     );
 
+    assert!(number(&text, "delay_bound_ms") == 0.0, "{text}");
+
     let written = fs::read_to_string(shop.path("passing/counts.csv")).expect("counts");
+    // The same, as if the last three frames showed the part after a stop at 100 mm/s, and the others came 80 ms late.
+    let rows: Vec<(&str, i64)> = (written.lines())
+        .filter_map(|line| line.split_once(';'))
+        .filter_map(|(name, count)| Some((name, count.trim().parse().ok()?)))
+        .collect();
+    assert_eq!(rows.len(), 12, "{written}");
+    let forward = (rows[11].1 - rows[0].1).signum();
+    let late = rows[..9].iter().map(|(name, count)| {
+        let count = count + 80 * forward;
+        format!("{name}; {count}\n")
+    });
+    let stop = |counts: [i64; 3]| {
+        let rows = rows[9..].iter().zip(counts);
+        let rows = rows.map(|((name, _), count)| format!("{name}; {count}\n"));
+        late.clone().chain(rows).collect::<String>()
+    };
+    shop.write("late.csv", &stop([rows[9].1, rows[10].1, rows[11].1]));
+    let stopped = |counts: &str, out: &str| {
+        let mut args = vec!["calibrate", "line", &part];
+        args.extend(frames[..9].iter().map(String::as_str));
+        for frame in &frames[9..] {
+            args.extend(["--stop", frame.as_str()]);
+        }
+        args.extend(["--speed", "100", "--counts", counts, "--out", out]);
+        shop.run(&args)
+    };
+    let moving = stopped("late.csv", "none.toml");
+    assert_eq!(moving.code, 2, "{}", moving.out);
+    assert!(
+        moving.err.contains("the line was not stopped"),
+        "{}",
+        moving.err
+    );
+    // One frame at rest, three times.
+    for k in [10, 11] {
+        let bytes = fs::read(shop.path(&frames[9])).expect("a frame");
+        fs::write(shop.path(&frames[k]), bytes).expect("written");
+    }
+    shop.write("late.csv", &stop([rows[9].1; 3]));
+    let measured = stopped("late.csv", "late.toml");
+    assert_eq!(measured.code, 0, "{}", measured.err);
+    assert!(measured.out.contains("ms late, within"), "{}", measured.out);
+    let late = fs::read_to_string(shop.path("late.toml")).expect("written");
+    let (delay, bound) = (number(&late, "delay_ms"), number(&late, "delay_bound_ms"));
+    assert!(bound > 1.0 && bound < 150.0, "{late}");
+    assert!((delay - 80.0).abs() <= bound, "{late}");
+
     let counts: Vec<String> = (written.lines())
         .filter(|line| !line.starts_with('#'))
         .map(|line| format!("{}; 7\n", line.split(';').next().expect("a name")))

@@ -50,9 +50,14 @@ impl Service {
     /// As [`Self::start`], with this standard output.
     fn start_into(place: &Workplace, args: &[&str], out: Stdio) -> Self {
         place.accepted(&CALIBRATE);
-        let calibrated = ["serve", "--calibration", "cell.toml", "--json"];
+        let calibrated = ["--calibration", "cell.toml"];
+        Self::start_as_it_is(place, &[&calibrated[..], args].concat(), out)
+    }
+
+    /// As [`Self::start_into`], without a calibration.
+    fn start_as_it_is(place: &Workplace, args: &[&str], out: Stdio) -> Self {
         let mut child = place
-            .command(&[&calibrated[..], args].concat())
+            .command(&[&["serve", "--json"][..], args].concat())
             .stdout(out)
             .stderr(Stdio::piped())
             .spawn()
@@ -95,6 +100,22 @@ impl Service {
         let stream = TcpStream::connect(address).expect("connected");
         stream.set_read_timeout(Some(PATIENCE)).expect("set");
         BufReader::new(stream)
+    }
+
+    /// Where the simulated flange stands at first, in each convention that is spoken.
+    fn flanges(&self, num: usize) -> Vec<String> {
+        let until = Instant::now() + PATIENCE;
+        loop {
+            let messages = self.messages();
+            let lines = messages.lines();
+            let flanges = lines.filter_map(|line| line.strip_prefix("Flange: ")?.split_once(", "));
+            let flanges: Vec<String> = flanges.map(|(numbers, _)| numbers.to_owned()).collect();
+            if flanges.len() == num {
+                return flanges;
+            }
+            assert!(Instant::now() < until, "{messages}");
+            thread::sleep(Duration::from_millis(20));
+        }
     }
 
     /// Ends it as Ctrl-C does; returns its exit code, standard output and messages.
@@ -537,6 +558,77 @@ fn a_robot_that_servoes_is_told_where_to_go_and_leaves_a_run_but_no_inspection()
     assert!(text.contains("serve") && !text.contains("speed"), "{text}");
 }
 
+#[test]
+fn the_program_of_a_robot_is_tried_on_a_simulated_arm_that_stands_where_it_says() {
+    let place = Workplace::new();
+    let camera = ["--simulated", "fender", "--hand-eye", "10,1", "--delay=50"];
+    let robots = [
+        "--as",
+        "fanuc",
+        "--listen",
+        "ascii=0",
+        "--listen",
+        "urscript=0",
+        "--number",
+        "fender=3",
+    ];
+    let args = [&camera[..], &robots[..]].concat();
+    let mut service = Service::start_as_it_is(&place, &args, Stdio::piped());
+    let mut robot = service.connect("ascii");
+    let [mut pose, list]: [String; 2] = service.flanges(2).try_into().expect("two conventions");
+    let (mut start, mut num_stays, mut lefts) = ("START ", 0, Vec::new());
+    let done = loop {
+        let answer = asked(&mut robot, &format!("SERVO {start}3 {pose}\n"));
+        start = "";
+        let fields: Vec<&str> = answer.split(';').collect();
+        match fields[1] {
+            "move" => {
+                lefts.push(fields[20].parse::<f64>().expect("an error"));
+                pose = fields[12..18].join(" ");
+                assert!(lefts.len() < 20, "{lefts:?}");
+            }
+            "stay" => {
+                num_stays += 1;
+                assert!(num_stays < 5, "{answer}");
+            }
+            _ => break answer,
+        }
+    };
+    let fields: Vec<&str> = done.split(';').collect();
+    assert_eq!(
+        (fields[1], fields[6], fields[8]),
+        ("done", "fender", "4"),
+        "{done}"
+    );
+    let left: f64 = fields[20].parse().expect("an error");
+    assert!(
+        lefts.len() > 1 && lefts[0] > 50.0 && left < 2.0,
+        "{lefts:?}, {done}"
+    );
+    // Where the arm cannot stand.
+    let away = asked(&mut robot, "SERVO START 3 9000 0 1100 0 90 0\n");
+    assert!(
+        away.contains(";stay;") && away.contains(";out_of_reach;"),
+        "{away}"
+    );
+    // The same arm, from its start again, for another protocol.
+    let mut other = service.connect("urscript");
+    let pose = list.split(' ').collect::<Vec<_>>().join(", ");
+    let moved = asked(&mut other, &format!("SERVO START 3 p[{pose}]\n"));
+    assert!(moved.starts_with("(20, 8, "), "{moved}");
+    let (code, _, messages) = service.interrupt();
+    assert_eq!(code, Some(0), "{messages}");
+    assert!(messages.contains("up to 10.0 mm and 1.0°"), "{messages}");
+    let runs = place.accepted(&["history", "runs", "--json"]).lines();
+    let arrived = runs.iter().find(|run| run["arrived"] == true);
+    let arrived = arrived.expect("a run that arrived");
+    assert_eq!(
+        (&arrived["part"], &arrived["simulated"]),
+        (&"fender".into(), &true.into())
+    );
+    assert_eq!(arrived["source"], "simulated:fender");
+}
+
 /// Serves without a history.
 const WITHOUT_HISTORY: [&str; 7] = [
     "--source",
@@ -735,6 +827,24 @@ fn what_the_service_cannot_start_with_is_said_with_what_to_do() {
         let found = err(2, &args);
         assert!(found.contains(words), "{args:?}: {found}");
     }
+    let simulated = |more: &[&str]| {
+        let args = [&["serve", "--as", "kuka", "--simulated"][..], more].concat();
+        place.coded(2, &args).err
+    };
+    assert!(simulated(&["boat"]).contains("partsight library list"));
+    for more in [
+        ["fender", "--calibration", "cell.toml"],
+        ["fender", "--source", "simulated:fender"],
+        ["fender", "--volume", "0,0,0,1000,1000,1000"],
+    ] {
+        assert!(simulated(&more).contains("cannot be used with"));
+    }
+    assert!(
+        place
+            .coded(2, &["serve", "--as", "kuka"])
+            .err
+            .contains("--source")
+    );
     let stepping = ["--source", "recording,pace=step:x"];
     let ran = place.coded(2, &[&serve[..1], &stepping[..], &calibrated[..]].concat());
     assert!(ran.err.contains("pace=10"), "{}", ran.err);

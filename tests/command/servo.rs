@@ -53,14 +53,21 @@ fn a_simulated_robot_is_brought_to_its_target_and_the_lines_say_how() {
     assert!(table.out.contains("Wrote 1 runs"), "{}", table.out);
     let unknown = place.coded(2, &["history", "run", "7"]).err;
     assert!(unknown.contains("partsight history runs"), "{unknown}");
-    place.accepted(&[
+    let tried = place.accepted(&[
         "servo",
         "fender",
         "--simulated",
         "--no-history",
         "--seed",
         "2",
+        "--delay",
+        "100",
+        "--hand-eye",
+        "5,0.5",
+        "--backlash",
+        "0.01",
     ]);
+    assert!(tried.err.contains("up to 5.0 mm and 0.5°"), "{}", tried.err);
     assert_eq!(line(&["history", "runs", "--json"])["number"], 1);
 }
 
@@ -109,6 +116,19 @@ fn what_cannot_be_servoed_is_refused_with_advice() {
             place.coded(2, &["servo", "boat", "--simulated"]).err,
             "partsight library list",
         ),
+        (
+            place
+                .coded(2, &["servo", "fender", "--simulated", "--hand-eye=20"])
+                .err,
+            "such as 20,2",
+        ),
+        (
+            place
+                .coded(2, &["servo", "fender", "--simulated", "--hand-eye=20,nan"])
+                .err,
+            "such as 20,2",
+        ),
+        (servo(&["--robot", "egm=0", "--delay", "50"]), "--simulated"),
         (place.coded(2, &replayed).err, "Give a camera as --source"),
         (servo(&["--robot", "abb=6510"]), "egm=192.168.1.10:6510"),
         (calibrated("rsi=0"), "--arm and --nozzle"),

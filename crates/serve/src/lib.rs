@@ -47,7 +47,7 @@ pub use self::{
         binary::{ANSWER_BYTES, MAX_NUMBERS, REQUEST_BYTES, request as binary_request},
     },
     record::{InspectionRecord, InspectionRecorder},
-    request::{AskedOrder, ExpectedNumber, ExpectedNumbers, Request, ServoRequest},
+    request::{AskedOrder, ExpectedNumber, ExpectedNumbers, Request, ServoRequest, count_age},
     server::{
         Asked, ClientEvent, ClientNews, ClientSlot, Inspector, ServeError, Server, ServerSettings,
         Unanswered,

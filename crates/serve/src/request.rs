@@ -1,5 +1,7 @@
 //! Requests that a client may send.
 
+use std::time::Duration;
+
 use geometry::rigid::RigidTransform;
 use stages::segment::MAX_PARTS;
 
@@ -12,6 +14,8 @@ pub enum Request {
         expected: ExpectedNumbers,
         /// What the encoder of the line shows; `None` if it was not sent.
         count: Option<u32>,
+        /// How long before the request the count was read.
+        count_age: Duration,
         /// The order whose parts should hang there, instead of their numbers.
         order: AskedOrder,
     },
@@ -64,6 +68,15 @@ impl ExpectedNumber {
     }
 }
 
+/// Longest time before a trigger at which its count may have been read, milliseconds.
+const MAX_COUNT_AGE_MS: f64 = 10_000.0;
+
+/// The time before a trigger at which its count was read; `None` if it is none, or too long.
+pub fn count_age(milliseconds: f64) -> Option<Duration> {
+    let is_one = (0.0..=MAX_COUNT_AGE_MS).contains(&milliseconds);
+    is_one.then(|| Duration::from_secs_f64(milliseconds / 1000.0))
+}
+
 /// The order that a trigger names; its texts are empty if they were not sent.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct AskedOrder {
@@ -95,6 +108,7 @@ impl Request {
     pub const TRIGGER: Self = Self::Trigger {
         expected: [ExpectedNumber { part: 0, place: 0 }; MAX_PARTS],
         count: None,
+        count_age: Duration::ZERO,
         order: AskedOrder {
             order: String::new(),
             serial: String::new(),
@@ -151,6 +165,7 @@ impl Request {
         Some(Self::Trigger {
             expected,
             count,
+            count_age: Duration::ZERO,
             order,
         })
     }
@@ -160,6 +175,15 @@ impl Request {
     pub fn at_count(mut self, new: Option<u32>) -> Self {
         if let Self::Trigger { count, .. } = &mut self {
             *count = new;
+        }
+        self
+    }
+
+    /// A trigger whose count was read this long before; other requests stay as they are.
+    #[must_use]
+    pub fn read_before(mut self, new: Duration) -> Self {
+        if let Self::Trigger { count_age, .. } = &mut self {
+            *count_age = new;
         }
         self
     }

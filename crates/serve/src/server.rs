@@ -61,6 +61,8 @@ pub struct Asked {
     pub expected: ExpectedNumbers,
     /// What the encoder of the line showed, if it was sent.
     pub count: Option<u32>,
+    /// How long before the trigger the count was read.
+    pub count_age: Duration,
     /// The order that it names.
     pub order: AskedOrder,
 }
@@ -73,8 +75,14 @@ impl Asked {
             by_clock: geometry::clock::now(),
             expected: ExpectedNumbers::default(),
             count: None,
+            count_age: Duration::ZERO,
             order: AskedOrder::default(),
         }
+    }
+
+    /// When its count was read; when it came, without one.
+    pub fn counted_at(&self) -> Instant {
+        self.at.checked_sub(self.count_age).unwrap_or(self.at)
     }
 
     /// A request that has just come.
@@ -83,10 +91,12 @@ impl Asked {
             Request::Trigger {
                 expected,
                 count,
+                count_age,
                 order,
             } => Self {
                 expected,
                 count,
+                count_age,
                 order,
                 ..Self::now()
             },

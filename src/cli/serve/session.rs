@@ -35,7 +35,7 @@ use serve::{
 use station::{
     Answered, Answering, Camera, CameraScenes, Inspected, LineFollower, NoFrame, PartFinder,
     Subject,
-    servoing::{RestWatch, ServoParts, SetupError, SingleMoves},
+    servoing::{CarriedCamera, RestWatch, ServoParts, SetupError, SingleMoves},
     traced,
 };
 
@@ -49,6 +49,8 @@ pub(super) struct ServeSession<'a> {
     pub(super) finder: PartFinder,
     /// Robots that servo, or why they are not answered.
     pub(super) servoing: Result<SingleMoves, SetupError>,
+    /// The camera on a simulated arm, if that is the camera.
+    pub(super) carried: Option<CarriedCamera>,
     /// The table of orders that triggers may name.
     pub(super) orders: Option<OrdersFile>,
     /// What triggers are traced by that name no order, and what the last one is.
@@ -197,6 +199,19 @@ impl ServeSession<'_> {
         let servoing = match &mut self.servoing {
             Ok(servoing) => servoing,
             Err(why) => return Found::error(Problem::of(why.kind(), why)),
+        };
+        let stands = (self.carried.as_ref())
+            .map(|carried| carried.stand(&request.robot_from_flange, asked))
+            .transpose();
+        let asked = match &stands {
+            Ok(stands) => stands.as_ref().unwrap_or(asked),
+            Err(why) => {
+                return Found {
+                    verdict: VerdictCode::Stay,
+                    problem: Problem::of(why.kind(), why),
+                    ..Found::default()
+                };
+            }
         };
         let parts = ServoParts {
             finder: &self.finder,

@@ -478,8 +478,21 @@ fn a_trigger_may_say_what_is_expected_and_a_body_that_says_something_else_is_ref
     for (body, letters) in ordered.into_iter().zip([4, 8]) {
         assert_eq!(number(client.trigger_with(body)), plain + 1000 * letters);
     }
+    for (body, counted) in [
+        ("{\"count\": 123456}", 100_456),
+        ("{\"count\": 123456, \"count_age_ms\": 40}", 100_496),
+        ("{\"count\": -1, \"expected\": [3]}", 100_298),
+    ] {
+        assert_eq!(number(client.trigger_with(body)), plain + counted);
+    }
     let num_before = service.num_inspected();
     for body in [
+        "{\"count\": 4294967296}",
+        "{\"count\": 1.5}",
+        "{\"count\": \"7\"}",
+        "{\"count_age_ms\": 40}",
+        "{\"count\": 7, \"count_age_ms\": -1}",
+        "{\"count\": 7, \"count_age_ms\": 10001}",
         "{\"expected\": 3}",
         "{\"expected\": [0]}",
         "{\"expected\": [-1]}",

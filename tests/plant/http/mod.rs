@@ -103,6 +103,8 @@ impl Service {
                 .sum::<u32>();
             let named = [&asked.order.order, &asked.order.serial];
             found.first.number += 1000 * named.map(|text| text.len() as u32).iter().sum::<u32>();
+            let age = asked.count_age.as_millis() as u32;
+            found.first.number += asked.count.map_or(0, |count| 100_000 + count % 1000 + age);
             found
         };
         Self {

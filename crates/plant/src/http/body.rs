@@ -10,7 +10,7 @@ use geometry::rigid::row_major;
 use robot::{Convention, RobotPose};
 use serve::{
     Answer, AskedOrder, CameraState, ExpectedNumber, FrameFacts, LibraryStatus, OnLineNow,
-    PathStep, Problem, RackPlace, Request, VerdictCode,
+    PathStep, Problem, RackPlace, Request, VerdictCode, count_age,
 };
 
 /// What a trigger may say of its frame.
@@ -29,6 +29,12 @@ pub(super) struct TriggerBody {
     /// The serial number of what hangs there, alone or with its order.
     #[serde(default)]
     serial: String,
+    /// What the encoder of the line shows, signed or unsigned, of up to 32 bits.
+    #[serde(default)]
+    count: Option<i64>,
+    /// Milliseconds since the count was read, 0 to 10000; 0 if left out.
+    #[serde(default)]
+    count_age_ms: Option<f64>,
 }
 
 impl TriggerBody {
@@ -40,6 +46,8 @@ impl TriggerBody {
             places,
             order,
             serial,
+            count,
+            count_age_ms,
         } = match body.trim_ascii() {
             [] => Self::default(),
             body => read(body)?,
@@ -47,10 +55,19 @@ impl TriggerBody {
         if expected.contains(&0) || places.len() > expected.len() {
             return None;
         }
+        let is_count = |count| (i64::from(i32::MIN)..=i64::from(u32::MAX)).contains(&count);
+        if !count.is_none_or(is_count) || (count.is_none() && count_age_ms.is_some()) {
+            return None;
+        }
+        // A negative count is that of a counter of 32 bits.
+        let count = count.map(|count| count as u32);
+        let age = count_age(count_age_ms.unwrap_or_default())?;
         let places = places.into_iter().chain(iter::repeat(0));
         let parts = expected.into_iter().zip(places);
         let parts = parts.map(|(part, place)| ExpectedNumber { part, place });
-        Request::expecting(parts)?.of_order(AskedOrder::new(&order, &serial)?)
+        let request = Request::expecting(parts)?;
+        let request = request.at_count(count).read_before(age);
+        request.of_order(AskedOrder::new(&order, &serial)?)
     }
 }
 

@@ -25,7 +25,8 @@ pub(super) enum Refusal {
     WrongMethod,
     #[error("the body does not say which parts are expected")]
     #[advice = "Send no body, or the numbers of up to 8 expected parts, and of their places: {{\"expected\": [3, 5], \"places\": [1, 2]}}; \
-               or, instead, an order, a serial number or both: {{\"order\": \"4711\", \"serial\": \"TL-1\"}}"]
+        or, instead, an order, a serial number or both: {{\"order\": \"4711\", \"serial\": \"TL-1\"}}; on a line, a count, and how long ago \
+        it was read (0 to 10000 ms): {{\"count\": 123456, \"count_age_ms\": 40}}"]
     BadBody,
     #[error("the request does not say whose path is wanted")]
     #[advice = "Give the sequence number of your trigger's answer: GET /v1/path?sequence=41"]

@@ -6,7 +6,7 @@ use jiff::Timestamp;
 use nalgebra::{Unit, Vector3};
 use serde::{Deserialize, Serialize};
 
-use super::{Counter, LineCalibration};
+use super::{Counter, LineCalibration, delay::MAX_DELAY_S};
 use files::{FileError, crc32, parse_toml, read_text, toml_problem, write_text};
 use geometry::{
     error::Advice,
@@ -22,8 +22,8 @@ const HEAD: &str = "\
 # Partsight: how a line moves past the camera, and how its encoder counts. Written by partsight calibrate line.
 #
 # slip_percent: greatest share of the way that the encoder loses or gains. exposure_ms: time in which the camera exposes a
-# frame; if you do not know it, one frame period. delay_ms: time from the exposure of a frame to its arrival. These three may be
-# edited; for all others, calibrate again.
+# frame; if you do not know it, one frame period. delay_ms: time from the exposure of a frame to its arrival; delay_bound_ms: by
+# how much it may differ. These four may be edited; for all others, calibrate again.
 ";
 
 /// Content of the file.
@@ -42,6 +42,8 @@ struct Text {
     exposure_ms: f64,
     #[serde(default)]
     delay_ms: f64,
+    #[serde(default)]
+    delay_bound_ms: f64,
 }
 
 /// The numbers by which poses are carried.
@@ -75,7 +77,7 @@ pub enum LineFileError {
     File(#[from] FileError),
     /// The file has unexpected content.
     #[error("{}: not the file of a line: {found}", path.display())]
-    #[advice = "Correct slip_percent, exposure_ms or delay_ms in a text editor, or calibrate the line again: partsight calibrate line"]
+    #[advice = "Correct slip_percent, exposure_ms, delay_ms or delay_bound_ms in a text editor, or calibrate the line again: partsight calibrate line"]
     Bad {
         /// The file.
         path: PathBuf,
@@ -84,7 +86,7 @@ pub enum LineFileError {
     },
     /// The numbers are not those that the program wrote.
     #[error("{}: the numbers were changed after the calibration: its checksum does not match", path.display())]
-    #[advice = "Calibrate the line again: partsight calibrate line. Only slip_percent, exposure_ms and delay_ms may be edited"]
+    #[advice = "Calibrate the line again: partsight calibrate line. Only slip_percent, exposure_ms, delay_ms and delay_bound_ms may be edited"]
     Edited {
         /// The file.
         path: PathBuf,
@@ -131,6 +133,7 @@ impl LineCalibration {
             0.0,
             45.0,
         )?;
+        let most_delay = 1000.0 * MAX_DELAY_S;
         Ok(Self {
             direction,
             direction_bound: Radians::from_degrees(turn),
@@ -144,7 +147,8 @@ impl LineCalibration {
             made_at: read.made_at,
             slip: within("slip_percent", read.slip_percent, 0.0, 10.0)? / 100.0,
             exposure: within("exposure_ms", read.exposure_ms, 0.0, 1000.0)? / 1000.0,
-            delay: within("delay_ms", read.delay_ms, 0.0, 2000.0)? / 1000.0,
+            delay: within("delay_ms", read.delay_ms, 0.0, most_delay)? / 1000.0,
+            delay_bound: within("delay_bound_ms", read.delay_bound_ms, 0.0, most_delay)? / 1000.0,
         })
     }
 
@@ -169,6 +173,7 @@ impl LineCalibration {
             slip_percent: 100.0 * self.slip,
             exposure_ms: 1000.0 * self.exposure,
             delay_ms: 1000.0 * self.delay,
+            delay_bound_ms: 1000.0 * self.delay_bound,
         };
         let text = toml::to_string(&text).expect("numbers and text have a TOML form");
         write_text(path, &format!("{HEAD}\n{text}"))?;
@@ -198,6 +203,7 @@ mod tests {
             slip: 0.01,
             exposure: 0.008,
             delay: 0.12,
+            delay_bound: 0.015,
         };
         line.save(&path).expect("written");
         let again = LineCalibration::load(&path).expect("read");
@@ -218,8 +224,17 @@ mod tests {
         assert!(matches!(edited, Err(LineFileError::Edited { .. })));
         let slower = with("exposure_ms = 8.0", "exposure_ms = 20.0").expect("may be edited");
         assert!((slower.exposure - 0.02).abs() < 1e-12 && (slower.delay - 0.12).abs() < 1e-12);
+        assert!((again.delay_bound - 0.015).abs() < 1e-12);
         let prompt = with("delay_ms = 120.0", "").expect("may be left out");
         assert!(prompt.delay == 0.0);
+        let exact = with("delay_bound_ms = 15.0", "").expect("may be left out");
+        assert!(exact.delay_bound == 0.0 && exact.delay > 0.0);
+        let negative = with("delay_bound_ms = 15.0", "delay_bound_ms = -1.0");
+        let negative = negative.expect_err("out of range");
+        assert!(
+            negative.to_string().contains("delay_bound_ms is -1"),
+            "{negative}"
+        );
         let negative = with("exposure_ms = 8.0", "exposure_ms = -1.0").expect_err("out of range");
         assert!(negative.to_string().contains("exposure_ms"), "{negative}");
         let missing = LineCalibration::load(&folder.path().join("none.toml")).expect_err("none");

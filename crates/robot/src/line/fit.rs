@@ -43,7 +43,7 @@ const DEFAULT_BOUND_M: f64 = 0.004;
 /// Way between two poses by which a count that was reset is told from one that slips, metres.
 const TELLING_WAY_M: f64 = 0.02;
 /// 95 % bounds in standard deviations.
-const BOUND_DEVIATIONS: f64 = 2.0;
+pub(super) const BOUND_DEVIATIONS: f64 = 2.0;
 
 /// Why no line can be fitted to poses and counts.
 #[derive(Clone, Debug, PartialEq, thiserror::Error, Advice)]
@@ -97,6 +97,39 @@ pub enum LineFitError {
         name: String,
         /// By how much.
         turn: Radians,
+    },
+    /// Too few poses of the part after the line was stopped.
+    #[error(
+        "{found} poses of the part after the line was stopped, at least {} are needed",
+        super::MIN_STOPPED
+    )]
+    #[advice(
+        "Stop the line with the part still wholly in sight, take {} frames or more of it, each with its count, and give each with --stop",
+        super::MIN_STOPPED
+    )]
+    TooFewStopped {
+        /// Their number.
+        found: usize,
+    },
+    /// The line has moved between the frames that were taken after it was stopped.
+    #[error("{name}: the line was not stopped: the count goes on from {from} to {to}")]
+    #[advice = "Give with --stop only frames that were taken after the line had come to rest"]
+    NotStopped {
+        /// The pose at which the count has changed.
+        name: String,
+        /// The count of the first pose after the stop.
+        from: i64,
+        /// The count at this one.
+        to: i64,
+    },
+    /// Frames cannot be so late, or early.
+    #[error("the frames before the stop would be {:.0} ms late, within {:.0} ms", 1000.0 * delay, 1000.0 * bound)]
+    #[advice = "Check --speed, that each count was read when its frame arrived, and that the part did not swing when the line stopped"]
+    Delay {
+        /// How late they would be, seconds.
+        delay: f64,
+        /// 95 % bound of that, seconds.
+        bound: f64,
     },
     /// The poses do not lie on a line by their counts.
     #[error("the part swung, or was not carried by the line that the encoder counts: it is {:.1} mm off the line (rms), {name} {:.1} mm", rms.mm(), off.mm())]
@@ -187,6 +220,7 @@ pub fn fit(
         slip: DEFAULT_SLIP,
         exposure: DEFAULT_EXPOSURE_S,
         delay: 0.0,
+        delay_bound: 0.0,
     })
 }
 

@@ -3,6 +3,7 @@
 //! Both are fitted once, from poses of a part that passed and the counts at which it was seen. From then on, a pose at one
 //! count gives the pose at any other, with bounds that grow with the way between them.
 
+mod delay;
 mod file;
 mod fit;
 
@@ -17,6 +18,7 @@ use geometry::{
 use stages::pose::Uncertainty;
 
 pub use self::{
+    delay::MIN_STOPPED,
     file::LineFileError,
     fit::{CountedPose, LineFitError, MIN_POSES, fit},
 };
@@ -50,6 +52,8 @@ pub struct LineCalibration {
     pub exposure: f64,
     /// Time from the exposure of a frame to the time that the camera gives it, seconds.
     pub delay: f64,
+    /// 95 % bound of that time, seconds.
+    pub delay_bound: f64,
 }
 
 /// A part on a line where it has its pose.

@@ -36,7 +36,7 @@ pub enum BadRequest {
     },
     /// The text after the word of a request is not a number.
     #[error("not a number: {found:?}")]
-    #[advice = "Send TRIGGER alone, or with PART, PLACE=PART, ENC=COUNT or ORDER=\"A 17\"; PATH or PART alone, or with numbers from 1"]
+    #[advice = "Send TRIGGER alone, or with PART, PLACE=PART, ENC=COUNT, ENC=COUNT@MILLISECONDS (0 to 10000, since it was read) or ORDER=\"A 17\"; PATH or PART alone, or with numbers from 1"]
     NoNumber {
         /// The text found, in printable characters.
         found: String,

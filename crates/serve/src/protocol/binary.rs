@@ -285,7 +285,7 @@ impl FrameWriter {
     }
 }
 
-/// Encodes a request as a frame, without an order; one of a robot that servoes without its pose, so that it is refused.
+/// Encodes a request as a frame, without an order and the age of a count; one of a robot that servoes without its pose, so that it is refused.
 pub fn request(request: &Request, order: ByteOrder) -> Vec<u8> {
     let mut frame = FrameWriter {
         bytes: REQUEST_MAGIC.to_vec(),

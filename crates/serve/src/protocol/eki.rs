@@ -7,14 +7,16 @@
 //! ```
 //!
 //! Only the form that EKI sends with the guide's configuration is read, not every equivalent XML: no comments or references, and
-//! attributes of the pose alone. The pose is an element of EKI's type FRAME; without a pose it is missing.
+//! attributes of the pose and the count alone. The pose is an element of EKI's type FRAME; without a pose it is missing.
+
+use std::time::Duration;
 
 use super::{
     MAX_MESSAGE_CHARS, Parsed,
     ascii::{figure, name_of},
     bad_request::BadRequest,
     is_filler,
-    line::{expected_in, named, number_in, number_of_count, of_name, real_in, words_of},
+    line::{age_in, expected_in, named, number_in, number_of_count, of_name, real_in, words_of},
     plain, servo_request,
 };
 use crate::answer::Answer;
@@ -62,6 +64,7 @@ fn request(bytes: &[u8]) -> Result<Request, BadRequest> {
         .ok_or_else(wrong)?;
     let elements = Elements::read(inner).ok_or_else(wrong)?;
     let word = elements.get("Request").ok_or_else(wrong)?;
+    let age = elements.count_age().ok_or_else(wrong)?.as_bytes();
     // EKI sends every element with every request, also with those that do not take it.
     let of = |name| elements.text(name).as_bytes();
     let filled = |tag| Some(of(tag)).filter(|number| !number.is_empty());
@@ -82,11 +85,16 @@ fn request(bytes: &[u8]) -> Result<Request, BadRequest> {
         let expected = words_of(of("Expected")).map(expected_in);
         let request = Request::expecting(expected.collect::<Result<Vec<_>, _>>()?);
         let request = request.ok_or_else(|| BadRequest::unknown(bytes))?;
-        let count = filled("Count").map(number_of_count).transpose()?;
+        let count = filled(COUNT).map(number_of_count).transpose()?;
+        let age = match (count, age) {
+            (_, []) => Duration::ZERO,
+            (Some(_), age) => age_in(age)?,
+            (None, age) => return Err(BadRequest::no_number(age)),
+        };
         let text = |name| unescaped(elements.text(name));
         let order = AskedOrder::new(&text("Order"), &text("Serial"));
         let order = order.ok_or_else(|| BadRequest::bad_order(bytes))?;
-        let request = request.at_count(count).of_order(order);
+        let request = request.at_count(count).read_before(age).of_order(order);
         return request.ok_or(BadRequest::OrderAndParts);
     }
     let numbers: Vec<&[u8]> = match request {
@@ -120,9 +128,10 @@ fn unescaped(text: &str) -> String {
 
 /// The elements that a request may have, each once.
 const ELEMENTS: [&str; 9] = [
-    "Request", "Point", "Sequence", "Expected", "Order", "Serial", "Count", "Start", POSE,
+    "Request", "Point", "Sequence", "Expected", "Order", "Serial", COUNT, "Start", POSE,
 ];
-/// The only one with attributes.
+/// Those with attributes.
+const COUNT: &str = "Count";
 const POSE: &str = "Pose";
 
 /// The elements of a request: name, attributes and text. One that cannot be read makes the request wrong, since what it asks
@@ -143,7 +152,7 @@ impl<'a> Elements<'a> {
             let blank = |c: char| c.is_ascii_whitespace();
             let (name, attributes) = tag.split_once(blank).unwrap_or((tag, ""));
             let is_new = elements.0.iter().all(|(other, ..)| *other != name);
-            let may_have = attributes.is_empty() || name == POSE;
+            let may_have = attributes.is_empty() || name == COUNT || name == POSE;
             if !(ELEMENTS.contains(&name) && is_new && may_have) {
                 return None;
             }
@@ -173,6 +182,19 @@ impl<'a> Elements<'a> {
     /// The text of an element; empty if it is missing.
     fn text(&self, name: &str) -> &'a str {
         self.get(name).unwrap_or_default()
+    }
+
+    /// What is written as the age of the count; empty if nothing is, and `None` if the count has any other attribute.
+    fn count_age(&self) -> Option<&'a str> {
+        let count = self.0.iter().find(|(found, ..)| *found == COUNT);
+        let attributes = count.map_or("", |(_, attributes, _)| attributes.trim());
+        if attributes.is_empty() {
+            return Some("");
+        }
+        let value = attributes.strip_prefix("Age")?.trim_start();
+        let value = value.strip_prefix('=')?.trim_start();
+        let value = value.strip_prefix('"')?.strip_suffix('"')?;
+        (!value.contains('"')).then(|| value.trim())
     }
 
     /// An attribute of the pose; empty if it is missing.
@@ -303,7 +325,21 @@ mod tests {
                 Request::TRIGGER.at_count(Some(u32::MAX - 6)),
             ),
             (
-                "<Robot><Request>STATUS</Request><Count>9</Count></Robot>",
+                "<Robot><Request>TRIGGER</Request><Count Age=\"40\">-7</Count></Robot>",
+                Request::TRIGGER
+                    .at_count(Some(u32::MAX - 6))
+                    .read_before(Duration::from_millis(40)),
+            ),
+            (
+                "<Robot><Request>TRIGGER</Request><Count Age = \"\" >7</Count></Robot>",
+                Request::TRIGGER.at_count(Some(7)),
+            ),
+            (
+                "<Robot><Request>TRIGGER</Request><Count Age=\"\"/></Robot>",
+                Request::TRIGGER,
+            ),
+            (
+                "<Robot><Request>STATUS</Request><Count Age=\"40\">9</Count></Robot>",
                 Request::Status,
             ),
             (
@@ -450,6 +486,10 @@ mod tests {
             "<Order><X>4711</X></Order>",
             "<!--<Expected>7</Expected>-->",
             "<Count x=\"1\">7</Count>",
+            "<Count Age=40>7</Count>",
+            "<Count Age=\"40\" x=\"1\">7</Count>",
+            "<Count Age=\"4\" Age=\"5\">7</Count>",
+            "<Count AgeX=\"4\">7</Count>",
             "<Request>STATUS</Request>",
             "4711",
         ] {
@@ -458,6 +498,17 @@ mod tests {
         }
         for words in ["ORDER=4711", "SERIAL=TL-1", "ENC=7"] {
             let text = trigger(&format!("<Expected>{words}</Expected>"));
+            assert_eq!(only(&text).expect_err(&text).reason(), "no_point", "{text}");
+        }
+        for count in [
+            "<Count Age=\"x\">7</Count>",
+            "<Count Age=\"-1\">7</Count>",
+            "<Count Age=\"10001\">7</Count>",
+            "<Count Age=\"40\"></Count>",
+            "<Count Age=\"40\"/>",
+            "<Count>7@40</Count>",
+        ] {
+            let text = trigger(count);
             assert_eq!(only(&text).expect_err(&text).reason(), "no_point", "{text}");
         }
         // EKI sends every element with every request.

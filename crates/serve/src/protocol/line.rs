@@ -1,13 +1,15 @@
 //! A request as a line of text: `TRIGGER` or, if the parts number 3 and 5 are expected, `TRIGGER 3 5` or, at the first and the
 //! second place of the rack, `TRIGGER 1=3 2=5`; `STATUS`, `LAST`, `PATH`, `PATH 3` or, of the inspection number 41,
-//! `PATH 3 41`; `PART` likewise. `ENC=123456` behind `TRIGGER` is the count of a line's encoder. `ORDER=4711`, `SERIAL=TL-1` or both
+//! `PATH 3 41`; `PART` likewise. `ENC=123456` behind `TRIGGER` is the count of a line's encoder, `ENC=123456@40` one that was read 40 ms before. `ORDER=4711`, `SERIAL=TL-1` or both
 //! stand instead of the parts of that order; a text with blanks or semicolons is in double quotes.
 //! `SERVO 3 1450 -310 890 10 20 30`, or `SERVO START 3 …`: of part 3 with the flange there.
 //!
 //! A line ends with LF, CR or both. Case does not matter. Empty lines, and blanks and zeros around a request, are ignored.
 
+use std::time::Duration;
+
 use super::{Parsed, bad_request::BadRequest, is_filler, servo_request};
-use crate::request::{AskedOrder, ExpectedNumber, Request};
+use crate::request::{AskedOrder, ExpectedNumber, Request, count_age};
 use robot::Convention;
 
 /// Maximum length of a line, bytes; every request is shorter.
@@ -96,8 +98,18 @@ fn trigger(mut words: Vec<&[u8]>) -> Result<Option<Request>, BadRequest> {
         let values = words.extract_if(.., |word| value_of(word, name).is_some());
         values.filter_map(|word| value_of(word, name)).collect()
     };
-    let count = taken("ENC=").last().copied();
-    let count = count.map(number_of_count).transpose()?;
+    let (count, age) = match taken("ENC=")[..] {
+        [] => (None, Duration::ZERO),
+        [value] => {
+            let mut pieces = value.splitn(2, |byte| *byte == b'@');
+            let count = number_of_count(pieces.next().unwrap_or_default())?;
+            (
+                Some(count),
+                pieces.next().map_or(Ok(Duration::ZERO), age_in)?,
+            )
+        }
+        [first, ..] => return Err(BadRequest::no_number(first)),
+    };
     let mut text = |name: &str| match taken(name)[..] {
         [] => Ok(""),
         // A program whose variable is empty must not get what hangs there by chance.
@@ -113,7 +125,7 @@ fn trigger(mut words: Vec<&[u8]>) -> Result<Option<Request>, BadRequest> {
     let Some(request) = Request::expecting(parts.collect::<Result<Vec<_>, _>>()?) else {
         return Ok(None);
     };
-    let request = request.at_count(count).of_order(asked);
+    let request = request.at_count(count).read_before(age).of_order(asked);
     request.map(Some).ok_or(BadRequest::OrderAndParts)
 }
 
@@ -158,6 +170,13 @@ pub(super) fn number_of_count(text: &[u8]) -> Result<u32, BadRequest> {
     // A negative count is that of a counter of 32 bits.
     let number = number.map(|number| number as i64 as u32);
     number.ok_or_else(|| BadRequest::no_number(text))
+}
+
+/// Reads the milliseconds before a trigger at which its count was read.
+pub(super) fn age_in(text: &[u8]) -> Result<Duration, BadRequest> {
+    let number = std::str::from_utf8(text).ok();
+    let age = number.and_then(|text| count_age(text.parse().ok()?));
+    age.ok_or_else(|| BadRequest::no_number(text))
 }
 
 pub(super) fn number_in(text: &[u8]) -> Result<u32, BadRequest> {
@@ -218,6 +237,19 @@ mod tests {
                 "TRIGGER ENC=4294967295\n",
                 Request::TRIGGER.at_count(Some(u32::MAX)),
             ),
+            (
+                "trigger 3 enc=-2@40 5\n",
+                expecting(&[3, 5])
+                    .at_count(Some(u32::MAX - 1))
+                    .read_before(Duration::from_millis(40)),
+            ),
+            (
+                "TRIGGER ENC=7@12.5\n",
+                Request::TRIGGER
+                    .at_count(Some(7))
+                    .read_before(Duration::from_micros(12_500)),
+            ),
+            ("TRIGGER ENC=7@0\n", Request::TRIGGER.at_count(Some(7))),
             ("status\r", Request::Status),
             ("Last\n", Request::Last),
             ("PATH\n", Request::path(0, 0)),
@@ -340,6 +372,14 @@ mod tests {
             ("TRIGGER ENC=\n", "no_point"),
             ("TRIGGER ENC=4294967296\n", "no_point"),
             ("TRIGGER ENC=1.5\n", "no_point"),
+            ("TRIGGER ENC=7@\n", "no_point"),
+            ("TRIGGER ENC=7@-1\n", "no_point"),
+            ("TRIGGER ENC=7@nan\n", "no_point"),
+            ("TRIGGER ENC=7@10001\n", "no_point"),
+            ("TRIGGER ENC=7@4@4\n", "no_point"),
+            ("TRIGGER ENC=@40\n", "no_point"),
+            ("TRIGGER ENC=7 @40\n", "no_point"),
+            ("TRIGGER ENC=7 ENC=8\n", "no_point"),
             ("STATUS ENC=1\n", "unknown_request"),
             ("TRIGGER 1=\n", "no_point"),
             ("TRIGGER =3\n", "no_point"),

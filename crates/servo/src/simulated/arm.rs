@@ -6,7 +6,7 @@
 
 use std::{collections::VecDeque, time::Duration};
 
-use crate::ArmState;
+use crate::{ArmState, StopReason};
 use geometry::rigid::RigidTransform;
 use robot::arm::{Joints, PlacedArm};
 
@@ -33,6 +33,11 @@ impl Default for ArmDynamics {
         }
     }
 }
+
+/// Most periods in which the arm goes anywhere: two minutes of the default ones.
+const MAX_PERIODS: usize = 10_000;
+/// Angles from the target, and speeds, below which the arm is at rest: radians, and radians per second.
+const AT_REST: f64 = 1e-9;
 
 /// An arm that follows poses of its flange.
 #[derive(Clone, Debug)]
@@ -69,6 +74,22 @@ impl SimulatedArm {
     pub fn send(&mut self, robot_from_flange: RigidTransform) {
         self.pending
             .push_back((self.now + self.dynamics.delay, robot_from_flange));
+    }
+
+    /// Goes there and comes to rest; returns why, if it cannot, and stays.
+    pub fn go(&mut self, robot_from_flange: &RigidTransform) -> Result<(), StopReason> {
+        let robot_from_nozzle = robot_from_flange * self.placed.flange_from_nozzle;
+        self.target = self.placed.joints_near(&robot_from_nozzle, &self.target)?;
+        self.pending.clear();
+        for _ in 0..MAX_PERIODS {
+            self.advance();
+            let is_there = (self.motors.iter().zip(&self.target))
+                .all(|(motor, target)| (motor - target).abs() < AT_REST);
+            if is_there && self.speeds.iter().all(|speed| speed.abs() < AT_REST) {
+                break;
+            }
+        }
+        Ok(())
     }
 
     /// Moves on by a period.
@@ -203,5 +224,27 @@ mod tests {
             arm.advance();
         }
         assert_eq!(arm.num_unreachable(), 1);
+    }
+
+    #[test]
+    fn it_goes_where_it_is_told_and_comes_to_rest_or_stays_and_says_why() {
+        let mut arm = arm(ArmDynamics::default());
+        let goal = RigidTransform::translation(0.2, 0.1, -0.1) * arm.state().robot_from_flange;
+        arm.go(&goal).expect("within reach");
+        let off = pose_error(&arm.state().robot_from_flange, &goal, &Point3::origin());
+        assert!(off.shift.0 < 1e-6, "{off:?}");
+        let there = arm.true_flange();
+        let away = pose_error(&there, &goal, &Point3::origin());
+        assert!(
+            away.shift.0 > 1e-6 && away.shift.0 < 1e-3,
+            "backlash: {away:?}"
+        );
+        let far = RigidTransform::translation(9.0, 0.0, 0.0);
+        assert_eq!(arm.go(&far), Err(StopReason::OutOfReach));
+        for _ in 0..20 {
+            arm.advance();
+        }
+        let moved = pose_error(&arm.true_flange(), &there, &Point3::origin());
+        assert!(moved.shift.0 < 1e-6, "{moved:?}");
     }
 }

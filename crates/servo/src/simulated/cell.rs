@@ -133,6 +133,13 @@ pub struct CellSetup {
     pub seed: u64,
 }
 
+impl CellSetup {
+    /// Seed of the noise of the frame with this number.
+    fn noise_seed(&self, number: u64) -> u64 {
+        self.seed.wrapping_mul(1_000_003).wrapping_add(number)
+    }
+}
+
 /// Why a simulated cell cannot be arranged.
 #[derive(Debug, thiserror::Error)]
 pub enum SimulatedCellError {
@@ -188,6 +195,26 @@ pub struct SimulatedCell<'a> {
     pub(super) part_from_goal: RigidTransform,
     /// Where the part hangs at first.
     pub(super) robot_from_part: RigidTransform,
+}
+
+/// The camera of a cell in which nothing goes wrong. It needs no library, so it may outlive its cell, on a thread of its own.
+pub struct CellCamera {
+    setup: CellSetup,
+    scan: SimulatedScan,
+    base_from_model: RigidTransform,
+    flange_from_camera: RigidTransform,
+}
+
+impl CellCamera {
+    /// The frame with this number, taken with the flange here.
+    pub fn frame(&self, flange: &RigidTransform, number: u64) -> DepthFrame {
+        let noise = SensorNoise {
+            multiplier: self.setup.noise,
+            seed: self.setup.noise_seed(number),
+        };
+        let robot_from_camera = flange * self.flange_from_camera;
+        (self.scan).frame(&robot_from_camera, &self.base_from_model, &noise)
+    }
 }
 
 /// The base of the arm in the base frame of the cell.
@@ -270,7 +297,7 @@ impl<'a> SimulatedCell<'a> {
                 self.part_from_goal = true_pose.inverse();
                 let robot_from_camera = self.robot_from_part * self.part_from_goal;
                 let looks = (0..NUM_RECORDED).filter_map(|k| {
-                    let seed = self.noise_seed(u64::from(u32::MAX) + k);
+                    let seed = self.setup.noise_seed(u64::from(u32::MAX) + k);
                     let frame = self.frame(&robot_from_camera, Duration::ZERO, seed)?;
                     Some(self.inspected(&frame, Duration::ZERO))
                 });
@@ -351,10 +378,6 @@ impl<'a> SimulatedCell<'a> {
         })
     }
 
-    pub(super) fn noise_seed(&self, number: u64) -> u64 {
-        self.setup.seed.wrapping_mul(1_000_003).wrapping_add(number)
-    }
-
     fn is_disturbed(&self, by: Disturbance, at: Duration) -> bool {
         self.setup.disturbance == by && at >= self.disturbed_at
     }
@@ -432,6 +455,26 @@ impl<'a> SimulatedCell<'a> {
         arm.expect("the start was checked")
     }
 
+    /// What it was arranged for.
+    pub fn setup(&self) -> &CellSetup {
+        &self.setup
+    }
+
+    /// Its camera.
+    pub fn into_camera(self) -> CellCamera {
+        CellCamera {
+            base_from_model: self.robot_from_part * enrolment_pose(),
+            setup: self.setup,
+            scan: self.scan,
+            flange_from_camera: self.flange_from_camera,
+        }
+    }
+
+    /// Its arm with the nozzle, as the program knows them.
+    pub fn placed_arm(&self) -> &PlacedArm {
+        &self.placed
+    }
+
     /// The controller of its robot, at the start.
     pub fn controller(&self, protocol: StreamProtocol) -> SimulatedController {
         SimulatedController::new(self.arm(), self.placed.clone(), protocol)
@@ -445,7 +488,7 @@ impl<'a> SimulatedCell<'a> {
     /// What the inspection of the frame with this number says, taken with the flange here; `None` if it is lost.
     pub fn look(&self, flange: &RigidTransform, at: Duration, number: u64) -> Option<Look> {
         let robot_from_camera = flange * self.flange_from_camera;
-        let frame = self.frame(&robot_from_camera, at, self.noise_seed(number))?;
+        let frame = self.frame(&robot_from_camera, at, self.setup.noise_seed(number))?;
         Some(self.inspected(&frame, self.dated(at)))
     }
 

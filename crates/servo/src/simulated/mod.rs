@@ -12,7 +12,8 @@ mod single_moves;
 pub use self::{
     arm::{ArmDynamics, SimulatedArm},
     cell::{
-        CellSetup, Disturbance, HandEyeError, SimulatedCell, SimulatedCellError, SimulatedTarget,
+        CellCamera, CellSetup, Disturbance, HandEyeError, SimulatedCell, SimulatedCellError,
+        SimulatedTarget,
     },
     controller::{SimulatedController, StreamProtocol},
     run::{RunResult, Sample, run},

@@ -160,6 +160,7 @@ impl Stream for Egm {
         let robot_from_flange = pose.transform()?;
         let angles = feedback.joints.map(|joints| joints.values);
         let joints = angles.and_then(|angles| Joints::try_from(angles).ok());
+        let joints = joints.filter(|joints| joints.iter().all(|angle| angle.is_finite()));
         if let Some((last, _)) = self.last
             && number <= last
         {

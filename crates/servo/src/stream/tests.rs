@@ -1,6 +1,6 @@
 use std::{collections::VecDeque, time::Duration};
 
-use nalgebra::Point3;
+use nalgebra::{Point3, Quaternion, Translation3, UnitQuaternion, Vector3};
 use proptest::prelude::*;
 
 use super::*;
@@ -294,6 +294,136 @@ fn a_number_that_is_missing_is_not_zero() {
         what: "AIPos with A1 to A6",
     };
     assert_eq!(Rsi::new(placed()).receive(packet.as_bytes()), Err(lacks));
+}
+
+/// The bytes of a text in hexadecimal.
+fn bytes(text: &str) -> Vec<u8> {
+    let digits = (0..text.len()).step_by(2).map(|at| &text[at..at + 2]);
+    let bytes = digits.map(|byte| u8::from_str_radix(byte, 16).expect("hexadecimal"));
+    bytes.collect()
+}
+
+/// A message `EgmRobot` with every kind of field, number 4711, written by `abb-robot-client` 0.4.0 for Python (its `egm_pb2`, with
+/// protobuf 7.36.2).
+const EGM_ROBOT: &str = "\
+    0a0908e7241087ad4b180212b5010a3609000000000000e03f09000000000000244009000000000000344009\
+    000000000000d0bf090000000000003e4009000000000080564012600a1b090000000000448f401100000000\
+    000869c0190000000080c09240122409000000000000e03f11000000000000e0bf19000000000000e03f2100\
+    0000000000e03f1a1b09000000000000f03f1100000000000000401900000000000008401a12090000000000\
+    001c400900000000000020402205080c10d9021a6212600a1b090000000000448f401100000000000869c019\
+    0000000080c09240122409000000000000e03f11000000000000e0bf19000000000000e03f21000000000000\
+    e03f1a1b09000000000000f03f110000000000000040190000000000000840220208012a02080330013a1209\
+    000000000000f83f09000000000000044042020802\
+    ";
+/// The answer to it that the same program writes, a message `EgmSensor`: number 1, the flange at 500, -250, 1125 mm and not turned.
+const EGM_SENSOR: &str = "\
+    0a0808011087ad4b1803124512430a1b090000000000407f40110000000000406fc019000000000094914012\
+    2409000000000000f03f110000000000000000190000000000000000210000000000000000\
+    ";
+
+#[test]
+fn messages_of_egm_are_those_of_a_program_by_others() {
+    let robot = bytes(EGM_ROBOT);
+    let mut stream = Egm::default();
+    let read = stream.receive(&robot).expect("read").expect("a report");
+    let rotation = Quaternion::new(0.5, -0.5, 0.5, 0.5);
+    let pose = RigidTransform::from_parts(
+        Translation3::new(1.0005, -0.20025, 1.200125),
+        UnitQuaternion::from_quaternion(rotation),
+    );
+    let off = pose_error(&read.robot_from_flange, &pose, &Point3::origin());
+    assert!(off.shift.0 < 1e-12 && off.rotation.0 < 1e-7, "{off:?}");
+    let joints = [0.5, 10.0, 20.0, -0.25, 30.0, 90.0_f64].map(f64::to_radians);
+    assert_eq!(read.joints, Some(joints));
+    assert!(read.is_following);
+    let answer = stream.answer(&RigidTransform::translation(0.5, -0.25, 1.125), false);
+    assert_eq!(answer, bytes(EGM_SENSOR));
+    assert!(matches!(
+        stream.receive(&robot),
+        Err(StreamError::OutOfOrder { number: 4711, .. })
+    ));
+    // The last byte says that RAPID runs; here it has stopped.
+    let mut stopped = robot;
+    let last = stopped.len() - 1;
+    stopped[last] = 1;
+    let read = Egm::default().receive(&stopped).expect("read");
+    assert!(!read.expect("a report").is_following);
+}
+
+/// What Universal Robots' RTDE client library for Python (`RTDE_Python_Client_Library`, `serialize.py` of 2022) sends to open a connection for the values
+/// that are read and written here; `ur-rtde` 1.6.5 sends the same, but for a comma behind the last name.
+const RTDE_REQUESTS: [&[u8]; 4] = [
+    b"\x00\x05V\x00\x02",
+    b"\x00\x56O\x40\x5f\x40\x00\x00\x00\x00\x00actual_TCP_pose,actual_q,runtime_state,safety_status,output_int_register_24",
+    b"\x00\xc4Iinput_int_register_24,input_int_register_25,input_double_register_24,input_double_register_25,\
+      input_double_register_26,input_double_register_27,input_double_register_28,input_double_register_29",
+    b"\x00\x03S",
+];
+/// A report that `ur-rtde` 1.6.5 reads as the values of the test.
+const RTDE_REPORT: &str = "\
+    007055013fdc000000000000bfcc0000000000003ff20000000000003fd0000000000000bff8000000000000\
+    3fb00000000000003fe0000000000000bff40000000000003ffc000000000000bfc000000000000040040000\
+    00000000c008000000000000000000020000000100000001\
+    ";
+/// The pose that the client library by Universal Robots sends with these registers.
+const RTDE_POSE: &str = "\
+    003c550200000001000000003fdc000000000000bfcc0000000000003ff20000000000000000000000000000\
+    00000000000000000000000000000000\
+    ";
+
+#[test]
+fn packages_of_rtde_are_those_of_programs_by_others() {
+    let mut stream = Rtde::default();
+    let answers: [(u8, &[u8]); 4] = [
+        (b'V', &[1]),
+        (b'O', b"\x01VECTOR6D,VECTOR6D,UINT32,INT32,INT32"),
+        (
+            b'I',
+            b"\x02INT32,INT32,DOUBLE,DOUBLE,DOUBLE,DOUBLE,DOUBLE,DOUBLE",
+        ),
+        (b'S', &[1]),
+    ];
+    for (request, (kind, payload)) in RTDE_REQUESTS.into_iter().zip(answers) {
+        assert_eq!(stream.requests(), request);
+        assert_eq!(stream.receive(&rtde::package(kind, payload)), Ok(None));
+    }
+    let read = stream.receive(&bytes(RTDE_REPORT)).expect("read");
+    let read = read.expect("a report");
+    let turn = Vector3::new(0.25, -1.5, 0.0625);
+    let pose = RigidTransform::from_parts(
+        Translation3::new(0.4375, -0.21875, 1.125),
+        UnitQuaternion::from_scaled_axis(turn),
+    );
+    let off = pose_error(&read.robot_from_flange, &pose, &Point3::origin());
+    assert!(off.shift.0 < 1e-12 && off.rotation.0 < 1e-7, "{off:?}");
+    assert_eq!(read.joints, Some([0.5, -1.25, 1.75, -0.125, 2.5, -3.0]));
+    assert!(read.is_following);
+    let goal = RigidTransform::translation(0.4375, -0.21875, 1.125);
+    assert_eq!(stream.answer(&goal, false), bytes(RTDE_POSE));
+}
+
+#[test]
+fn joints_that_are_no_numbers_are_not_known() {
+    let flange = RigidTransform::translation(0.3, 0.4, 0.5);
+    let reported = |first: f64| {
+        let report = egm::Robot {
+            header: Some(egm::Header {
+                number: Some(7),
+                ..Default::default()
+            }),
+            feedback: Some(egm::Position {
+                joints: Some(egm::Angles {
+                    values: vec![first, 10.0, 20.0, 0.0, 30.0, 0.0],
+                }),
+                pose: Some(egm::Pose::new(&flange)),
+            }),
+            ..Default::default()
+        };
+        let bytes = prost::Message::encode_to_vec(&report);
+        let read = Egm::default().receive(&bytes).expect("read");
+        read.expect("a report").joints.is_some()
+    };
+    assert!(reported(0.0) && !reported(f64::NAN) && !reported(f64::INFINITY));
 }
 
 #[test]

@@ -408,27 +408,30 @@ pub fn split(
             .into_iter()
             .map(move |half_width| picture.cut(half_width))
     });
-    splits.flat_map(move |pieces| {
-        if pieces.len() < 2 {
-            return Vec::new();
-        }
-        let mut pieces = clusters::members_of(scene, &no_other, pieces, link);
-        pieces.retain(|piece| piece.cluster.area >= min_area && piece.indices.len() >= MIN_POINTS);
-        if pieces.len() < 2 {
-            pieces.clear();
-        }
-        pieces.retain(|piece| {
-            let is_new = !known
-                .iter()
-                .any(|known| is_same_piece(known, &piece.indices));
-            if is_new {
-                known.push(piece.indices.clone());
+    splits
+        .flat_map(move |pieces| {
+            if pieces.len() < 2 {
+                return Vec::new();
             }
-            is_new
-        });
-        pieces
-    })
-    .map(move |piece| SegmentedPart::of_surface(scene, piece.indices, piece.cluster, noise))
+            let mut pieces = clusters::members_of(scene, &no_other, pieces, link);
+            pieces.retain(|piece| {
+                piece.cluster.area >= min_area && piece.indices.len() >= MIN_POINTS
+            });
+            if pieces.len() < 2 {
+                pieces.clear();
+            }
+            pieces.retain(|piece| {
+                let is_new = !known
+                    .iter()
+                    .any(|known| is_same_piece(known, &piece.indices));
+                if is_new {
+                    known.push(piece.indices.clone());
+                }
+                is_new
+            });
+            pieces
+        })
+        .map(move |piece| SegmentedPart::of_surface(scene, piece.indices, piece.cluster, noise))
 }
 
 /// True if two pieces, given by ascending indices, are nearly the same.

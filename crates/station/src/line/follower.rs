@@ -128,7 +128,7 @@ impl Answering<'_> {
         Ok((frame.in_order(line.tracker.line()), recorded))
     }
 
-    /// Answers a trigger with the poses of the parts on a line when it came, at the count that was sent with it; without a
+    /// Answers a trigger with the poses of the parts on a line at the count that was sent with it, when that was read; without a
     /// count, with those of the frame. It takes frames until a part counts, nothing hangs there, or the time is over. Also
     /// returns what to record, and the ids of the parts for which the trigger, as the first one, named an order or a serial
     /// number. `next` captures a frame after the trigger.
@@ -148,6 +148,7 @@ impl Answering<'_> {
             let seen = next().and_then(|(captured, subject)| {
                 let sent = *sent.get_or_insert_with(|| {
                     let at = self.camera.asked_at(asked, &captured);
+                    let at = at.saturating_sub(asked.count_age);
                     let count = asked.count.map(|count| line.counts.read(at, count.into()));
                     let count = count.map(|count| count as f64);
                     Moment { at, count }
@@ -198,8 +199,10 @@ impl Answering<'_> {
             let since = sent.at.as_secs_f64() - pose.moment.at.as_secs_f64();
             let (carried, bounds) = match sent.count {
                 None => (pose.camera_from_part, pose.bounds),
-                Some(count) => (pose.at_count(count, calibration))
-                    .unwrap_or_else(|| pose.after(since, calibration)),
+                Some(count) => pose.at_count(count, calibration).unwrap_or_else(|| {
+                    let (carried, bounds) = pose.after(since, calibration);
+                    (carried, pose.counted(bounds, calibration))
+                }),
             };
             set_pose(inspection, &carried, bounds);
             let moved = carried.translation.vector - pose.camera_from_part.translation.vector;
@@ -219,6 +222,7 @@ impl Answering<'_> {
             } else {
                 OnLine {
                     count: None,
+                    bound_mm: bounds.shift.mm(),
                     ..here
                 }
             });
@@ -247,10 +251,13 @@ impl Answering<'_> {
     }
 }
 
-/// The moment of a time by the camera's clock, which showed that of `sent` when the trigger came.
+/// The moment of a time by the camera's clock, which showed that of `sent` when the count of the trigger was read.
 fn instant_of(at: Duration, asked: &Asked, sent: &Moment) -> Instant {
     let (after, before) = (at.saturating_sub(sent.at), sent.at.saturating_sub(at));
-    (asked.at + after).checked_sub(before).unwrap_or(asked.at)
+    let counted_at = asked.counted_at();
+    (counted_at + after)
+        .checked_sub(before)
+        .unwrap_or(counted_at)
 }
 
 #[cfg(test)]

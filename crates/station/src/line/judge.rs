@@ -13,7 +13,7 @@ use inspection::pipeline::{
     Inspection,
     live::{PoseTolerance, mean_pose, poses_agree},
 };
-use robot::line::{Counter, LineCalibration, OnLine};
+use robot::line::{LineCalibration, OnLine};
 use stages::pose::{PoseEstimate, Uncertainty};
 
 /// Number of frames that must show a part where the line carried it.
@@ -201,13 +201,17 @@ impl LinePose {
     }
 
     /// Where the part with this number is at that moment.
-    pub(super) fn on_line(&self, number: u32, counter: Counter) -> OnLine {
+    pub(super) fn on_line(&self, number: u32, line: &LineCalibration) -> OnLine {
         let count = self.moment.count;
+        let bounds = match count {
+            Some(_) => self.counted(self.bounds, line),
+            None => self.bounds,
+        };
         OnLine {
             number,
-            count: count.map(|count| counter.shown(count.round() as i64)),
+            count: count.map(|count| line.counter.shown(count.round() as i64)),
             at: timestamp(self.moment.at),
-            bound_mm: self.bounds.shift.mm(),
+            bound_mm: bounds.shift.mm(),
             speed_mm_s: 1000.0 * self.speed,
         }
     }
@@ -219,10 +223,19 @@ impl LinePose {
         line: &LineCalibration,
     ) -> Option<(RigidTransform, Uncertainty)> {
         let counts = self.rate * (count - self.moment.count?);
-        Some(line.pose_at((&self.camera_from_part, self.bounds), counts, line.slip))
+        let bounds = self.counted(self.bounds, line);
+        Some(line.pose_at((&self.camera_from_part, bounds), counts, line.slip))
     }
 
-    /// The pose at another time, in seconds from this one, with its bounds.
+    /// Bounds of a pose at a count: what the count was when the frame was exposed is known as well as the camera's delay.
+    pub(super) fn counted(&self, bounds: Uncertainty, line: &LineCalibration) -> Uncertainty {
+        Uncertainty {
+            shift: Metres(bounds.shift.0.hypot(self.speed * line.delay_bound)),
+            ..bounds
+        }
+    }
+
+    /// The pose at another time by the camera's clock, in seconds from this one, with its bounds.
     pub fn after(&self, seconds: f64, line: &LineCalibration) -> (RigidTransform, Uncertainty) {
         let way = self.speed * seconds;
         let way_bound = (self.speed_bound * seconds).hypot(MAX_SPEED_CHANGE_SHARE * way);

@@ -59,7 +59,7 @@ pub struct Followed {
 impl Followed {
     /// Where it is on the line, if it has a pose.
     pub fn on_line(&self, line: &LineCalibration) -> Option<OnLine> {
-        Some(self.pose.as_ref()?.on_line(self.number?, line.counter))
+        Some(self.pose.as_ref()?.on_line(self.number?, line))
     }
 }
 
@@ -251,7 +251,7 @@ impl<E> LineTracker<E> {
                 is_new = true;
                 track.numbered = Some((self.num_numbered, part));
                 track.held = None;
-                let here = pose.on_line(self.num_numbered, self.line.counter);
+                let here = pose.on_line(self.num_numbered, &self.line);
                 recorded.push(entry(index, inspection, Some(here)));
             }
         } else if track.numbered.is_none() && (is_accepted || !track.was_accepted) {

@@ -41,6 +41,7 @@ fn line(change: impl FnOnce(&mut LineCalibration)) -> LineCalibration {
         slip: 0.005,
         exposure: 0.01,
         delay: 0.0,
+        delay_bound: 0.0,
     };
     change(&mut line);
     line
@@ -306,6 +307,34 @@ fn parts_side_by_side_have_a_number_each_and_one_that_is_missed_for_a_while_keep
     assert_eq!(tracker.end(), []);
 }
 
+#[test]
+fn a_pose_at_a_count_is_as_uncertain_as_the_delay_of_the_camera() {
+    let bounds = Uncertainty {
+        shift: Metres(0.003),
+        turn: Radians(0.01),
+        freedom: None,
+    };
+    let pose = |count: Option<f64>| LinePose {
+        moment: moment(10.0, count),
+        camera_from_part: RigidTransform::identity(),
+        bounds,
+        speed: -0.2,
+        speed_bound: 0.002,
+        rate: 1.0,
+    };
+    let (exact, vague) = (line(|_| ()), line(|line| line.delay_bound = 0.02));
+    let counted = pose(Some(5000.0));
+    let bound = |line| counted.at_count(5000.0, line).expect("counted").1.shift;
+    assert_eq!(bound(&exact), bounds.shift);
+    // In that time the line moves by 4 mm.
+    assert!((bound(&vague).mm() - 5.0).abs() < 1e-9);
+    let told = |pose: LinePose, line| pose.on_line(1, line).bound_mm;
+    assert_eq!(told(counted, &exact).to_bits(), bounds.shift.mm().to_bits());
+    assert!((told(counted, &vague) - 5.0).abs() < 1e-9);
+    let uncounted = told(pose(None), &vague);
+    assert_eq!(uncounted.to_bits(), bounds.shift.mm().to_bits());
+}
+
 /// Numbers the parts of a library from 1.
 fn finder(library: &Library) -> PartFinder {
     let parts = (1..).zip(&library.references);
@@ -485,14 +514,18 @@ fn triggers_are_answered_at_their_counts_though_frames_are_delayed_and_arrive_la
         for (k, later) in arrive_later.iter().cycle().enumerate().take(7) {
             let asked_at = start + 0.4 * k as f64;
             let exposed = asked_at + 0.1;
+            // Some come a little after their counts were read.
+            let count_age = Duration::from_millis(40 * (k as u64 % 3));
+            let came_at = Duration::from_secs_f64(asked_at) + count_age;
             let asked = Asked {
-                at: begin.0 + Duration::from_secs_f64(asked_at),
-                by_clock: begin.1 + Duration::from_secs_f64(asked_at),
+                at: begin.0 + came_at,
+                by_clock: begin.1 + came_at,
                 count: Some(Counter::Bits32.shown(simulated.count(asked_at))),
                 order: AskedOrder {
                     order: ["4711", "4711", "4711", "", "4712", "4713", ""][k].into(),
                     serial: String::new(),
                 },
+                count_age,
                 ..Asked::now()
             };
             let stamped = Duration::from_secs_f64(exposed + delay);
@@ -528,7 +561,9 @@ fn triggers_are_answered_at_their_counts_though_frames_are_delayed_and_arrive_la
             assert_eq!(found.verdict, VerdictCode::Accepted, "{:?}", found.problem);
             let here = found.on_line.expect("on a line");
             assert_eq!((here.number, here.count), (1, asked.count));
-            assert_eq!(found.on_line_since, Some(asked.at));
+            assert_eq!(found.on_line_since, Some(asked.counted_at()));
+            let counted_at = asked.by_clock - count_age;
+            assert_eq!(here.at.as_millisecond(), counted_at.as_millisecond());
             let truth = simulated.pose_of(0, asked_at) * enrolment_pose().inverse();
             let reference = library.references.iter().find(|one| one.name == found.part);
             let middle = reference.and_then(Reference::middle).expect("points");

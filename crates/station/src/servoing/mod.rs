@@ -8,18 +8,22 @@
 //! Reports and frames are dated when they arrive, by one clock. Robots that ask for single moves come through the server instead
 //! (`single_moves.rs`); the task of a part is the same for both (`setup.rs`).
 
+mod carried_camera;
 mod robot_link;
 mod run;
 mod setup;
 mod simulated_robot;
 mod single_moves;
+mod trial;
 
 pub use self::{
+    carried_camera::CarriedCamera,
     robot_link::{LinkError, RobotAddress, RobotLink},
     run::{RealRobot, ServoJob, ServoOutcome, ServoRunError, servo_real, servo_simulated},
     setup::{PreparedTask, ServoSetup, ServoTarget, SetupError, check_source, reference_of},
     simulated_robot::SimulatedRobot,
     single_moves::{RestFrames, RestWatch, ServoParts, SingleMoves},
+    trial::SimulatedTrial,
 };
 
 use std::{

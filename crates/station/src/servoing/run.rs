@@ -12,23 +12,16 @@ use jiff::Timestamp;
 
 use super::{
     LinkError, PreparedTask, RobotAddress, RobotLink, ServoNews, ServoOrder, ServoSetup,
-    SetupError, SimulatedRobot, check_source, reference_of, servo,
+    SetupError, SimulatedRobot, SimulatedTrial, check_source, servo,
 };
 use crate::CameraScenes;
 use ::servo::{
     Fence, Look, Servo, ServoError, ServoParams, Step, StopReason, Target, Task,
-    simulated::{
-        ArmDynamics, CellSetup, Disturbance, HandEyeError, SimulatedCell, SimulatedCellError,
-        SimulatedTarget, StreamProtocol,
-    },
+    simulated::{SimulatedCellError, StreamProtocol},
     stream::{Drive, Stream},
 };
 use capture::{CaptureError, Feed, FeedItem, FeedState, SourceSpec};
-use geometry::{
-    error::Advice,
-    rigid::PoseDelta,
-    units::{Metres, Radians},
-};
+use geometry::{error::Advice, rigid::PoseDelta};
 use inspection::{
     library::{Library, SprayPath},
     pipeline::{NamedRecipe, Unwatched, run as inspect},
@@ -106,11 +99,6 @@ pub enum ServoRunError {
     Link(#[from] LinkError),
 }
 
-/// How wrong the simulated calibration is at most.
-const SIMULATED_HAND_EYE: HandEyeError = HandEyeError {
-    shift: Metres(0.02),
-    turn: Radians(0.035),
-};
 /// How long the camera's thread waits for a frame before it looks whether the run is over.
 const POLL_INTERVAL: Duration = Duration::from_millis(100);
 
@@ -345,34 +333,15 @@ pub fn servo_real(
     ))
 }
 
-/// Servos a simulated robot, in this protocol, from a start of this seed.
+/// Servos a simulated robot, in this protocol.
 pub fn servo_simulated(
     job: &ServoJob<'_>,
     params: &ServoParams,
     protocol: StreamProtocol,
-    seed: u64,
+    trial: &SimulatedTrial,
     mut on_news: impl FnMut(Option<ServoNews>) -> ServoOrder,
 ) -> Result<ServoOutcome, ServoRunError> {
-    reference_of(job.library, job.part)?;
-    let kind = PartKind::ALL
-        .into_iter()
-        .find(|kind| kind.name() == job.part);
-    let kind = kind.ok_or_else(|| ServoRunError::NotSimulated {
-        part: job.part.to_owned(),
-    })?;
-    let setup = CellSetup {
-        kind,
-        target: SimulatedTarget::Standard,
-        noise: 1.0,
-        start: (Metres(0.25), Radians::from_degrees(25.0)),
-        hand_eye: SIMULATED_HAND_EYE,
-        frame_period: POLL_INTERVAL,
-        delay: Duration::ZERO,
-        dynamics: ArmDynamics::default(),
-        disturbance: Disturbance::None,
-        seed,
-    };
-    let cell = SimulatedCell::arrange(setup, job.library)?;
+    let cell = trial.arrange(job.part, job.library)?;
     let stream = cell.stream(protocol);
     let mut drive = job.drive(stream, &cell.task, params, cell.fence.clone())?;
     let (robot, mut link) = SimulatedRobot::start(cell.controller(protocol), protocol)?;
@@ -390,9 +359,11 @@ pub fn servo_simulated(
         )
     };
     let mut number = 0;
-    let next_look = |_: &AtomicBool| {
+    let next_look = |is_over: &AtomicBool| {
         number += 1;
-        robot.look(|flange, at| cell.look(flange, at, number))
+        robot.look(trial.delay, is_over, |flange, at| {
+            cell.look(flange, at, number)
+        })
     };
     let now = || robot.now().0;
     let mut outcome = logged(row, &mut link, &mut drive, &now, next_look, on_news);

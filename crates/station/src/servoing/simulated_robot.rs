@@ -26,7 +26,7 @@ pub struct SimulatedRobot {
 
 struct Shared {
     controller: Mutex<SimulatedController>,
-    /// When the last frame was taken that has been inspected.
+    /// When the last frame that has been inspected counts.
     looked_at: Mutex<Duration>,
     is_over: AtomicBool,
 }
@@ -35,6 +35,8 @@ struct Shared {
 const ANSWER_TIMEOUT: Duration = Duration::from_secs(1);
 /// How far it goes on without a frame that has been inspected.
 const MAX_AHEAD: Duration = Duration::from_millis(300);
+/// How often it looks whether a frame counts by now.
+const TURN: Duration = Duration::from_millis(2);
 /// Tries to find two free ports that belong together.
 const MAX_TRIES: usize = 50;
 
@@ -98,11 +100,21 @@ impl SimulatedRobot {
         (controller.arm.state().at, controller.arm.true_flange())
     }
 
-    /// Takes a frame, and says what its inspection finds: `look` gets where the flange really is, and the time.
-    pub fn look<T>(&self, look: impl FnOnce(&RigidTransform, Duration) -> T) -> T {
+    /// Takes a frame, and says what its inspection finds, this long after the frame at the earliest: `look` gets where the flange
+    /// really is, and the time. Once the flag is set, it returns soon.
+    pub fn look<T>(
+        &self,
+        delay: Duration,
+        is_over: &AtomicBool,
+        look: impl FnOnce(&RigidTransform, Duration) -> T,
+    ) -> T {
         let (at, flange) = self.now();
         let seen = look(&flange, at);
-        *lock(&self.shared.looked_at) = at;
+        let due = at + delay;
+        *lock(&self.shared.looked_at) = due;
+        while self.now().0 < due && !is_over.load(Ordering::SeqCst) {
+            thread::sleep(TURN);
+        }
         seen
     }
 }

@@ -1,5 +1,8 @@
 use super::*;
-use geometry::units::{Metres, Radians};
+use geometry::{
+    rigid::RigidTransform,
+    units::{Metres, Radians},
+};
 use inspection::{fixtures::shipped_library, library::Library};
 use servo::{
     Servo, ServoParams, ServoState,
@@ -46,9 +49,10 @@ fn run(
     .expect("sound");
     let mut drive = Drive::new(cell.stream(protocol), servo);
     let mut number = 0;
-    let next_look = |_: &AtomicBool| {
+    let next_look = |is_over: &AtomicBool| {
         number += 1;
-        robot.look(|flange, at| cell.look(flange, at, number))
+        let look = |flange: &RigidTransform, at| cell.look(flange, at, number);
+        robot.look(Duration::ZERO, is_over, look)
     };
     let mut num_looks = 0;
     let now = || robot.now().0;
@@ -103,7 +107,7 @@ fn a_run_leaves_its_row_with_its_curve() {
         &job,
         &ServoParams::default(),
         StreamProtocol::Egm,
-        1,
+        &SimulatedTrial::default(),
         |said| {
             news.extend(said);
             ServoOrder::GoOn
@@ -143,6 +147,75 @@ fn a_run_leaves_its_row_with_its_curve() {
 }
 
 #[test]
+fn a_trial_has_the_delay_the_calibration_and_the_play_that_were_asked_for() {
+    let library = shipped_library();
+    let job = ServoJob {
+        part: "fender",
+        title: "Fender, left",
+        library: &library,
+        longest_step: None,
+    };
+    let late = SimulatedTrial {
+        delay: Duration::from_millis(150),
+        hand_eye: HandEyeError {
+            shift: Metres::from_mm(5.0),
+            turn: Radians::from_degrees(1.0),
+        },
+        play: Radians::from_degrees(0.01),
+        seed: 2,
+    };
+    let (mut delays, mut tasks) = (Vec::new(), Vec::new());
+    let params = ServoParams::default();
+    let outcome = servo_simulated(&job, &params, StreamProtocol::Egm, &late, |news| {
+        match news {
+            Some(ServoNews::Looked { delay, .. }) => delays.push(delay),
+            Some(ServoNews::Begins { task, .. }) => tasks.push(task),
+            _ => {}
+        }
+        ServoOrder::GoOn
+    });
+    let outcome = outcome.expect("a start");
+    assert!(
+        matches!(outcome.end, Ok(Step::Done(_))),
+        "{:?}",
+        outcome.end
+    );
+    assert!(!delays.is_empty() && delays.iter().all(|delay| *delay >= late.delay));
+    // The calibration is wrong, but by no more than was asked for.
+    let exact = SimulatedTrial {
+        hand_eye: HandEyeError {
+            shift: Metres(0.0),
+            turn: Radians(0.0),
+        },
+        ..late
+    };
+    let cell = exact.arrange("fender", &library).expect("a start");
+    let camera = tasks[0].camera.mount_from_camera();
+    let wrong = geometry::rigid::pose_error(
+        camera,
+        cell.task.camera.mount_from_camera(),
+        &nalgebra::Point3::origin(),
+    );
+    assert!(
+        wrong.shift.mm() > 0.01 && wrong.shift.mm() < 5.001,
+        "{wrong:?}"
+    );
+    assert!(wrong.rotation.degrees() < 1.001, "{wrong:?}");
+    // With play, the flange is not where its motors are.
+    let away = |play| {
+        let trial = SimulatedTrial { play, ..late };
+        let cell = trial.arrange("fender", &library).expect("a start");
+        let mut arm = cell.arm();
+        let goal = RigidTransform::translation(0.0, 0.0, 0.02) * arm.state().robot_from_flange;
+        arm.go(&goal).expect("within reach");
+        let is = arm.true_flange();
+        (is.translation.vector - goal.translation.vector).norm()
+    };
+    assert!(away(Radians(0.0)) < 1e-6);
+    assert!(away(Radians::from_degrees(0.05)) > 1e-5);
+}
+
+#[test]
 fn in_steps_the_robot_waits_for_each_order_and_a_stopped_run_has_its_row_too() {
     let library = shipped_library();
     let job = ServoJob {
@@ -159,7 +232,7 @@ fn in_steps_the_robot_waits_for_each_order_and_a_stopped_run_has_its_row_too() {
         &job,
         &ServoParams::default(),
         StreamProtocol::Egm,
-        1,
+        &SimulatedTrial::default(),
         |news| {
             let Some(ServoNews::Looked {
                 standing: Some(standing),

@@ -34,7 +34,7 @@ use shell::{
 use stages::scene::{EmptyCell, SceneCloud, scene_from_image};
 use station::servoing::{
     RealRobot, RobotAddress, ServoJob, ServoNews, ServoOrder, ServoOutcome, ServoSetup,
-    ServoTarget, servo_real, servo_simulated,
+    ServoTarget, SimulatedTrial, servo_real, servo_simulated,
 };
 use ui::{
     language::{text, what_and_advice},
@@ -216,7 +216,11 @@ pub(super) fn run(
     let outcome = match &request.real {
         None => {
             let protocol = StreamProtocol::Egm;
-            servo_simulated(&job, &params, protocol, request.seed, on_news)
+            let trial = SimulatedTrial {
+                seed: request.seed,
+                ..SimulatedTrial::default()
+            };
+            servo_simulated(&job, &params, protocol, &trial, on_news)
                 .map_err(|error| UserError::of(&error))?
         }
         Some(cell) => {
