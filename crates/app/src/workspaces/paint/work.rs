@@ -2,14 +2,14 @@
 
 use std::{
     path::Path,
-    sync::{Arc, Mutex, PoisonError},
+    sync::{Arc, Mutex},
 };
 
 use glam::Vec3;
 
 use super::{action::ShownPath, course::GunCourse};
 use files::write_text;
-use geometry::cloud::PointCloud;
+use geometry::{cloud::PointCloud, error::lock};
 use inspection::library::{FileCheck, PartMeta, PartName, Side, SprayPath};
 use robot::paint::{
     Coat, Film, KeepOut, PaintError, PaintSurface, PathEdit, edited, plan, propose, simulate,
@@ -180,15 +180,14 @@ const MAX_DONE: usize = 16;
 impl PaintJob {
     /// Does the job, unless it was among the last.
     fn painted(self, context: &TaskContext<PaintResult>) -> Result<Painted, TaskError> {
-        let all = || DONE.lock().unwrap_or_else(PoisonError::into_inner);
-        let mut done = all();
+        let mut done = lock(&DONE);
         if let Some(place) = done.iter().position(|(job, _)| *job == self) {
             done[..=place].rotate_right(1);
             return Ok(done[0].1.clone());
         }
         drop(done);
         let painted = self.paint(context)?;
-        let mut done = all();
+        let mut done = lock(&DONE);
         done.truncate(MAX_DONE - 1);
         done.insert(0, (self, painted.clone()));
         Ok(painted)
