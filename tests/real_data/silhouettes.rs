@@ -69,7 +69,7 @@ fn all_shapes(data: &Path) -> &'static [Upright] {
 /// The first shape of each class.
 fn first_of_each_class(data: &Path) -> Vec<&'static Upright> {
     let mut shapes: Vec<&Upright> = all_shapes(data).iter().collect();
-    shapes.dedup_by_key(|one| &one.shape.class);
+    shapes.dedup_by(|a, b| a.shape.class == b.shape.class);
     shapes
 }
 

@@ -139,6 +139,8 @@ fn with_noise(rendering: &Rendering, noise: &SensorNoise) -> Vec<u16> {
     // Losses grow more slowly than noise: a multiplier of 3 gives five times the dropouts.
     let loss_scale = noise.multiplier.sqrt().sqrt() as f32;
     let units_of_steps = units_of_steps(focal_baseline);
+    // Neighbours mostly lie on one triangle, which has one angle.
+    let (mut last_facing, mut slant) = (1.0_f32, slant_of(1.0));
     let mut depth = vec![0; disparity.len()];
     for v in 0..camera.height {
         for (field, row) in fields.iter_mut().zip(&mut rows) {
@@ -160,8 +162,11 @@ fn with_noise(rendering: &Rendering, noise: &SensorNoise) -> Vec<u16> {
             if true_disparity <= 0.0 {
                 continue;
             }
-            let facing = f64::from(rendering.facing[pixel]);
-            let sigma = disparity_sigma(true_disparity, facing, focal_baseline, AXIAL_AT_1M)
+            let facing = rendering.facing[pixel];
+            if facing.to_bits() != last_facing.to_bits() {
+                (last_facing, slant) = (facing, slant_of(f64::from(facing)));
+            }
+            let sigma = disparity_sigma(true_disparity, slant, focal_baseline, AXIAL_AT_1M)
                 * noise.multiplier;
             let error = f64::from(axial[u]) * sigma;
             // The cast truncates, so adding a half rounds; a negative disparity is out of range anyway.
@@ -187,24 +192,32 @@ fn units_of_steps(focal_baseline: f64) -> Vec<u16> {
     units.collect()
 }
 
-/// Returns the standard deviation of the disparity before quantisation, in pixels, on a surface at |cosine| `facing`.
-/// `axial_at_1m` is that of the depth at 1 m, in metres, on a surface that faces the camera.
+/// Returns the factor by which the noise grows with the angle of a surface at |cosine| `facing`; `None` if it does not.
+pub(super) fn slant_of(facing: f64) -> Option<f64> {
+    if facing > 0.7 {
+        return None;
+    }
+    let angle = facing.clamp(0.0, 1.0).acos();
+    let steep = (std::f64::consts::FRAC_PI_2 - angle).max(0.02);
+    Some((angle / steep).powi(2))
+}
+
+/// Returns the standard deviation of the disparity before quantisation, in pixels, on a surface with this
+/// [slant](slant_of). `axial_at_1m` is that of the depth at 1 m, in metres, on a surface that faces the camera.
 pub(super) fn disparity_sigma(
     disparity: f64,
-    facing: f64,
+    slant: Option<f64>,
     focal_baseline: f64,
     axial_at_1m: f64,
 ) -> f64 {
     // dd = f·b/z² dz: an error of z that grows with z² is a constant error of the disparity.
     let upright = axial_at_1m * focal_baseline;
-    if facing > 0.7 {
+    let Some(slant) = slant else {
         return upright;
-    }
+    };
     // The angle's term of Nguyen, Izadi and Lovell's axial model, limited to 1 cm where their data end.
     let z = focal_baseline / disparity;
-    let angle = facing.clamp(0.0, 1.0).acos();
-    let steep = (std::f64::consts::FRAC_PI_2 - angle).max(0.02);
-    let slanted = (1e-4 / z.sqrt() * (angle / steep).powi(2)).min(0.01);
+    let slanted = (1e-4 / z.sqrt() * slant).min(0.01);
     upright.hypot(slanted * disparity / z)
 }
 

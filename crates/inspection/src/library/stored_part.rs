@@ -5,7 +5,7 @@ use std::{
     fs,
     io::{self, Read as _},
     path::Path,
-    sync::{Mutex, PoisonError},
+    sync::Mutex,
 };
 
 use super::{
@@ -18,7 +18,9 @@ use files::{
     FileContent, FileError, open_bytes, open_regular, parse_toml, read_bytes, read_picture,
     toml_problem,
 };
-use geometry::{cloud::PointCloud, nearest::KdTree, normals::estimate_normals, units::Metres};
+use geometry::{
+    cloud::PointCloud, error::lock, nearest::KdTree, normals::estimate_normals, units::Metres,
+};
 use stages::reference::{Coverage, Reference, ReferenceError, ReferenceParams};
 
 /// A stored part, read and prepared.
@@ -95,8 +97,7 @@ fn prepared(
     coverage: Coverage,
     params: &ReferenceParams,
 ) -> Result<Reference, ReferenceError> {
-    let known = || KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
-    let mut all = known();
+    let mut all = lock(&KNOWN);
     let is_this = |(of, by, reference): &(Coverage, ReferenceParams, Reference)| {
         *of == coverage && by == params && *reference.cloud == cloud
     };
@@ -110,7 +111,7 @@ fn prepared(
     }
     drop(all);
     let reference = Reference::prepare(name, cloud, coverage, params)?;
-    let mut all = known();
+    let mut all = lock(&KNOWN);
     all.truncate(MAX_KNOWN - 1);
     all.insert(0, (coverage, params.clone(), reference.clone()));
     drop(all);

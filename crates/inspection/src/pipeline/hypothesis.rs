@@ -1,6 +1,6 @@
 //! Explanations of a scene whose likeliest surface is no enrolled part, tried one after the other.
 
-use std::iter;
+use std::{iter, mem};
 
 use super::{
     Inspection, PoseChoice, Recipe,
@@ -30,7 +30,8 @@ enum Hypothesis {
     OneOfSeveral,
 }
 
-/// In the order in which they are tried, until one is accepted: where several parts may hang, surfaces that touch are common.
+/// In the order in which they are tried, until one is accepted. Where several parts may hang, they often touch, and the
+/// mirror image of two at once is looked for in vain.
 const HYPOTHESES: [Hypothesis; 5] = [
     Hypothesis::OtherSurface,
     Hypothesis::OneOfSeveral,
@@ -60,6 +61,7 @@ pub(super) fn try_hypotheses(
     let evidence = inspection.ranking.entries.first().and_then(|e| e.evidence);
     let looks_whole = evidence.is_some_and(|evidence| evidence.cut < CUT_SHARE);
     let has_more = evidence.is_none_or(|evidence| evidence.off > MIN_OFF_OF_SEVERAL);
+    let mut best_piece = None;
     for hypothesis in HYPOTHESES {
         let is_plausible = match hypothesis {
             Hypothesis::OtherSurface | Hypothesis::MirrorImage => true,
@@ -67,12 +69,23 @@ pub(super) fn try_hypotheses(
             Hypothesis::PartOnStand => !inspection.verdict.is_likeness(),
             Hypothesis::OneOfSeveral => has_more && inputs.recipe.max_parts() > 1,
         };
-        if is_plausible {
-            hypothesis.attempt(inspection, &likeliest, inputs)?;
+        if !is_plausible {
+            continue;
         }
+        let whole = matches!(hypothesis, Hypothesis::OneOfSeveral).then(|| inspection.clone());
+        hypothesis.attempt(inspection, &likeliest, inputs)?;
         if !is_unexplained(inspection, inputs.recipe) {
-            break;
+            return Ok(());
         }
+        // What is not one of several may be another thing as a whole.
+        if let Some(whole) = whole {
+            best_piece = Some(mem::replace(inspection, whole));
+        }
+    }
+    if let Some(piece) = best_piece
+        && piece.best_score() > inspection.best_score()
+    {
+        *inspection = piece;
     }
     Ok(())
 }

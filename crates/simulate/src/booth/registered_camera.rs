@@ -14,7 +14,7 @@ use crate::{
     rasteriser::{Rendering, SurfaceLabel},
     sensor::{
         BASELINE_M, Sensor, SensorNoise, SmoothNoise, disparity_sigma, edge_nearness, in_units,
-        lit_by_projector, sample,
+        lit_by_projector, sample, slant_of,
     },
 };
 use geometry::depth_frame::{DepthFrame, Intrinsics};
@@ -93,8 +93,8 @@ impl RegisteredCamera {
                     seen
                 };
                 let seen = f64::from(seen);
-                let facing = f64::from(rendering.facing[pixel]);
-                let sigma = disparity_sigma(seen, facing, focal_baseline, axial_at_1m);
+                let slant = slant_of(f64::from(rendering.facing[pixel]));
+                let sigma = disparity_sigma(seen, slant, focal_baseline, axial_at_1m);
                 let z = focal_baseline / (seen + f64::from(axial[u]) * sigma);
                 if RANGE_M.contains(&z) {
                     depth[pixel] = in_units(z, METRES_PER_UNIT);

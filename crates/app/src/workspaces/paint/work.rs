@@ -2,7 +2,7 @@
 
 use std::{
     path::Path,
-    sync::{Arc, Mutex, PoisonError},
+    sync::{Arc, Mutex},
 };
 
 use glam::Vec3;
@@ -10,7 +10,7 @@ use nalgebra::{Point3, Unit, Vector3};
 
 use crate::workspaces::paint::state::ShownPath;
 use files::write_text;
-use geometry::cloud::PointCloud;
+use geometry::{cloud::PointCloud, error::lock};
 use inspection::library::{FileCheck, PartMeta, PartName, Side, SprayPath};
 use robot::paint::{
     Coat, Film, KeepOut, PaintError, PaintSurface, PathEdit, edited, plan, propose, simulate,
@@ -181,15 +181,14 @@ const MAX_DONE: usize = 16;
 impl PaintJob {
     /// Does the job, unless it was among the last.
     fn painted(self, context: &TaskContext<PaintResult>) -> Result<Painted, TaskError> {
-        let all = || DONE.lock().unwrap_or_else(PoisonError::into_inner);
-        let mut done = all();
+        let mut done = lock(&DONE);
         if let Some(index) = done.iter().position(|(job, _)| *job == self) {
             done[..=index].rotate_right(1);
             return Ok(done[0].1.clone());
         }
         drop(done);
         let painted = self.paint(context)?;
-        let mut done = all();
+        let mut done = lock(&DONE);
         done.truncate(MAX_DONE - 1);
         done.insert(0, (self, painted.clone()));
         Ok(painted)

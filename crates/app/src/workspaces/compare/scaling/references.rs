@@ -5,12 +5,13 @@
 //! those of the original, and there is no cloud. They are not real parts, but ranking does the same work for them. Ten
 //! thousand take about 1 GB.
 
-use std::sync::{Mutex, PoisonError};
+use std::sync::Mutex;
 
 use rand::{RngExt as _, SeedableRng as _};
 use rand_pcg::Pcg64;
 
 use super::ScalingError;
+use geometry::error::lock;
 use inspection::{
     library::{EnrolParams, enrol_part},
     pipeline::{Cancelled, ProgressObserver},
@@ -33,7 +34,7 @@ pub(super) fn originals(
     most: usize,
     watch: &dyn ProgressObserver,
 ) -> Result<Vec<Reference>, ScalingError> {
-    let mut enrolled = ENROLLED.lock().unwrap_or_else(PoisonError::into_inner);
+    let mut enrolled = lock(&ENROLLED);
     let all = (0..NUM_MODELS).flat_map(|model| PartKind::ALL.map(|kind| (kind, model)));
     for (kind, model) in all.take(most).skip(enrolled.len()) {
         if watch.is_cancelled() {
