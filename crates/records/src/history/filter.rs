@@ -57,8 +57,11 @@ impl Filter {
         self.words().next().is_some()
     }
 
+    /// The words of the text; commas are those of a title that was typed or copied.
     fn words(&self) -> impl Iterator<Item = String> {
-        self.text.split_whitespace().map(str::to_lowercase)
+        let words = self.text.split_whitespace();
+        let words = words.map(|word| word.trim_matches(','));
+        words.filter(|word| !word.is_empty()).map(str::to_lowercase)
     }
 
     /// Returns the texts of which any one matches the word.
