@@ -77,7 +77,8 @@ history-again-hint = Use the current recipe and library; changes are shown here
 history-frame-gone = The frame of { $scene } is not kept
 history-frame-gone-advice = Keep more frames from now on: Frames… above the list
 history-actual-part = Actual part
-history-choose-actual-part = Choose the actual part
+history-labelled = Stored in the history. Actual part: { $part }
+history-label-undone = Undone: the actual part is as before
 history-remark = Remark
 history-your-remark = Your remark
 

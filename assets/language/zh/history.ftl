@@ -76,7 +76,8 @@ history-again-hint = 使用当前的配方和零件库；变化会显示在此�
 history-frame-gone = “{ $scene }”的深度帧未保留
 history-frame-gone-advice = 今后请保留更多深度帧：列表上方的“深度帧…”
 history-actual-part = 实际零件
-history-choose-actual-part = 请选择实际零件
+history-labelled = 已存入历史记录。实际零件：{ $part }
+history-label-undone = 已撤销：实际零件恢复为之前的值
 history-remark = 备注
 history-your-remark = 您的备注
 
