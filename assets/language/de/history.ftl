@@ -119,6 +119,7 @@ history-shift = Schicht vom { $start }: { $ok } IO, { $nok } NIO
 history-by-shift = Teile nach Schicht
 history-not-ok-on-top = NIO, oben
 history-total = { $count } Teile, { $share } IO
+history-total-of-shifts = { $shifts } Schichten: { $count } Teile, { $share } IO
 history-others-left-out =
     { $count ->
         [one] 1 Teil anderer Quellen ist nicht mitgezählt

@@ -119,6 +119,7 @@ history-shift = Shift of { $start }: { $ok } OK, { $nok } NOK
 history-by-shift = Parts by shift
 history-not-ok-on-top = NOK, on top
 history-total = { $count } parts, { $share } OK
+history-total-of-shifts = { $shifts } shifts: { $count } parts, { $share } OK
 history-others-left-out =
     { $count ->
         [one] 1 part of another source is not counted

@@ -119,6 +119,7 @@ history-shift = Turno del { $start }: { $ok } OK, { $nok } NOK
 history-by-shift = Piezas por turno
 history-not-ok-on-top = NOK, encima
 history-total = { $count } piezas, { $share } OK
+history-total-of-shifts = { $shifts } turnos: { $count } piezas, { $share } OK
 history-others-left-out =
     { $count ->
         [one] 1 pieza de otra fuente no cuenta

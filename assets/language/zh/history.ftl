@@ -114,6 +114,7 @@ history-shift = { $start } 的班次：{ $ok } OK，{ $nok } NG
 history-by-shift = 各班次零件数
 history-not-ok-on-top = NG（上方）
 history-total = { $count } 个零件，{ $share } OK
+history-total-of-shifts = { $shifts } 个班次：{ $count } 个零件，{ $share } OK
 history-others-left-out = 未计入其他来源的 { $count } 个零件
 history-no-part-left-out = 未计入 { $count } 条无零件的记录
 history-drift = 漂移：{ $part }
