@@ -292,7 +292,7 @@ mod tests {
             (
                 Stopped::BelowTarget,
                 None,
-                "Threshold reached: E below 1e-6 m², 57 iterations",
+                "Threshold reached: E < 1e-6 m², 57 iterations",
             ),
             (Stopped::Converged, None, "Converged after 57 iterations"),
             (
