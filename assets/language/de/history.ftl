@@ -77,7 +77,8 @@ history-again-hint = Mit dem aktuellen Rezept und der aktuellen Bibliothek; Änd
 history-frame-gone = Das Bild zu „{ $scene }“ wurde nicht aufbewahrt
 history-frame-gone-advice = Künftig mehr Bilder aufbewahren: „Bilder…“ über der Liste
 history-actual-part = Tatsächliches Teil
-history-choose-actual-part = Das tatsächliche Teil wählen
+history-labelled = Im Verlauf gespeichert. Tatsächliches Teil: { $part }
+history-label-undone = Rückgängig gemacht: das tatsächliche Teil ist wie vorher
 history-remark = Bemerkung
 history-your-remark = Eigene Bemerkung
 
@@ -118,6 +119,7 @@ history-shift = Schicht vom { $start }: { $ok } IO, { $nok } NIO
 history-by-shift = Teile nach Schicht
 history-not-ok-on-top = NIO, oben
 history-total = { $count } Teile, { $share } IO
+history-total-of-shifts = { $shifts } Schichten: { $count } Teile, { $share } IO
 history-others-left-out =
     { $count ->
         [one] 1 Teil anderer Quellen ist nicht mitgezählt

@@ -77,7 +77,8 @@ history-again-hint = Use the current recipe and library; changes are shown here
 history-frame-gone = The frame of { $scene } is not kept
 history-frame-gone-advice = Keep more frames from now on: Frames… above the list
 history-actual-part = Actual part
-history-choose-actual-part = Choose the actual part
+history-labelled = Stored in the history. Actual part: { $part }
+history-label-undone = Undone: the actual part is as before
 history-remark = Remark
 history-your-remark = Your remark
 
@@ -118,6 +119,7 @@ history-shift = Shift of { $start }: { $ok } OK, { $nok } NOK
 history-by-shift = Parts by shift
 history-not-ok-on-top = NOK, on top
 history-total = { $count } parts, { $share } OK
+history-total-of-shifts = { $shifts } shifts: { $count } parts, { $share } OK
 history-others-left-out =
     { $count ->
         [one] 1 part of another source is not counted

@@ -77,7 +77,8 @@ history-again-hint = Con la receta y la biblioteca actuales; los cambios se mues
 history-frame-gone = La imagen de «{ $scene }» no se ha conservado
 history-frame-gone-advice = Conservar más imágenes en adelante: Imágenes… encima de la lista
 history-actual-part = Pieza real
-history-choose-actual-part = Elegir la pieza real
+history-labelled = Guardado en el historial. Pieza real: { $part }
+history-label-undone = Deshecho: la pieza real es la de antes
 history-remark = Observación
 history-your-remark = Observación propia
 
@@ -118,6 +119,7 @@ history-shift = Turno del { $start }: { $ok } OK, { $nok } NOK
 history-by-shift = Piezas por turno
 history-not-ok-on-top = NOK, encima
 history-total = { $count } piezas, { $share } OK
+history-total-of-shifts = { $shifts } turnos: { $count } piezas, { $share } OK
 history-others-left-out =
     { $count ->
         [one] 1 pieza de otra fuente no cuenta

@@ -76,7 +76,8 @@ history-again-hint = 使用当前的配方和零件库；变化会显示在此�
 history-frame-gone = “{ $scene }”的深度帧未保留
 history-frame-gone-advice = 今后请保留更多深度帧：列表上方的“深度帧…”
 history-actual-part = 实际零件
-history-choose-actual-part = 请选择实际零件
+history-labelled = 已存入历史记录。实际零件：{ $part }
+history-label-undone = 已撤销：实际零件恢复为之前的值
 history-remark = 备注
 history-your-remark = 您的备注
 
@@ -113,6 +114,7 @@ history-shift = { $start } 的班次：{ $ok } OK，{ $nok } NG
 history-by-shift = 各班次零件数
 history-not-ok-on-top = NG（上方）
 history-total = { $count } 个零件，{ $share } OK
+history-total-of-shifts = { $shifts } 个班次：{ $count } 个零件，{ $share } OK
 history-others-left-out = 未计入其他来源的 { $count } 个零件
 history-no-part-left-out = 未计入 { $count } 条无零件的记录
 history-drift = 漂移：{ $part }

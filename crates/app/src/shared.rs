@@ -1,9 +1,13 @@
-//! What several workspaces draw: the frame of a side panel, the menu of a scene's true label, and the curve of a run of visual
-//! servoing.
+//! What several workspaces draw: the frame of a side panel, the thumbnails of the library, the menu of a scene's true label, and
+//! the curve of a run of visual servoing.
 
-use std::collections::BTreeSet;
+use std::{collections::BTreeSet, sync::Arc};
 
-use egui::{Frame, Margin, Rect, Sense, Ui, WidgetInfo, pos2, vec2};
+use egui::{
+    Color32, ColorImage, Context, Frame, Margin, Painter, Rect, Sense, TextureHandle,
+    TextureOptions, Ui, WidgetInfo, pos2, vec2,
+};
+use image::RgbaImage;
 
 use geometry::units::{Metres, Radians};
 use inspection::library::{PartMeta, Truth};
@@ -13,8 +17,46 @@ use ui::{
     language::text,
     plot::FallingCurve,
     theme::{Theme, space},
-    widgets::menu_list,
+    widgets::{fitted, menu_list},
 };
+
+/// Textures of the enrolled parts' thumbnails, made once per library.
+#[derive(Default)]
+pub(crate) struct Thumbnails(Option<(Arc<LibraryView>, Vec<Option<TextureHandle>>)>);
+
+impl Thumbnails {
+    /// Uploads the thumbnails of another library.
+    pub(crate) fn make(&mut self, ctx: &Context, library: &Arc<LibraryView>) {
+        let made = self.0.as_ref();
+        if made.is_some_and(|(of, _)| Arc::ptr_eq(of, library)) {
+            return;
+        }
+        let all = library.thumbnails.iter().map(|thumbnail| {
+            let thumbnail = thumbnail.as_ref()?;
+            Some(thumbnail_texture(ctx, "enrolled part", thumbnail))
+        });
+        self.0 = Some((Arc::clone(library), all.collect()));
+    }
+
+    /// Texture of the enrolled part at this index.
+    pub(crate) fn of_part(&self, index: usize) -> Option<&TextureHandle> {
+        self.0.as_ref()?.1.get(index)?.as_ref()
+    }
+}
+
+/// Uploads a thumbnail.
+pub(crate) fn thumbnail_texture(ctx: &Context, name: &str, image: &RgbaImage) -> TextureHandle {
+    let size = [image.width() as usize, image.height() as usize];
+    let image = ColorImage::from_rgba_unmultiplied(size, image.as_raw());
+    ctx.load_texture(name, image, TextureOptions::LINEAR)
+}
+
+/// Draws a picture as large as the rectangle allows.
+pub(crate) fn paint_fitted(painter: &Painter, texture: &TextureHandle, rect: Rect) {
+    let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+    let at = fitted(rect, texture.aspect_ratio());
+    painter.image(texture.id(), at, whole, Color32::WHITE);
+}
 
 /// The frame of a part of a side panel, with this room above and below what is in it, logical pixels.
 pub(crate) fn panel_frame(theme: &Theme, top: i8, bottom: i8) -> Frame {

@@ -16,7 +16,7 @@ use crate::{
     source::live::LiveAction,
     trace::orders::ExpectAction,
 };
-use inspection::pipeline::NamedRecipe;
+use inspection::{library::Truth, pipeline::NamedRecipe};
 use records::history::{HungId, NewEntry, TraceChange, Traceability};
 use robot::{Convention, RobotFrame};
 use ui::language::Language;
@@ -46,7 +46,7 @@ pub enum Action {
     CancelInspection,
     /// Bring a workspace to the front.
     GoTo(WorkspaceKind),
-    /// Show the part on the screen in History, so that the user can set its actual part.
+    /// Ask the operator what the part on the screen really is.
     WrongPart,
     /// Close what is on top: the shortcuts, then an enlarged stage.
     CloseTop,
@@ -193,8 +193,17 @@ pub enum Event {
     Escape,
     /// The engineer's view, requested by this workspace, was granted.
     EngineerIn,
-    /// The user says that this part, the one on the screen, was recognised wrongly.
+    /// The operator says that this part, the one on the screen, was recognised wrongly.
     WrongPart(HungId),
+    /// The operator says what a part really is.
+    Labelled {
+        /// The part.
+        part: HungId,
+        /// What it really is.
+        label: Truth,
+        /// Its true label before.
+        former: Option<Truth>,
+    },
     /// The user wants to undo what the last notice of this workspace offers to undo.
     Undo(WorkspaceKind),
 }

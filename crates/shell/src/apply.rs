@@ -50,7 +50,6 @@ pub fn apply(state: &mut State, action: Action) -> Option<Action> {
         }
         Action::WrongPart => {
             let part = state.session.current_result()?.hung().clone();
-            state.session.workspace = WorkspaceKind::History;
             return Some(Action::Tell(Event::WrongPart(part)));
         }
         Action::CloseTop if state.is_help_open => state.is_help_open = false,

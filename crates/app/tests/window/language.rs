@@ -319,6 +319,7 @@ enum Scenery {
     Draft,
     Live,
     Operator,
+    WrongPart,
     Help,
     Robot,
     RealRobot,
@@ -329,7 +330,7 @@ enum Scenery {
 }
 
 /// In this order in one window: a draft and Live change what the others show.
-const SCENERIES: [Scenery; 17] = [
+const SCENERIES: [Scenery; 18] = [
     Scenery::Workspace(WorkspaceKind::Enrol),
     Scenery::Workspace(WorkspaceKind::Compare),
     Scenery::Workspace(WorkspaceKind::Align),
@@ -339,6 +340,7 @@ const SCENERIES: [Scenery; 17] = [
     Scenery::Workspace(WorkspaceKind::History),
     Scenery::Workspace(WorkspaceKind::Inspect),
     Scenery::Operator,
+    Scenery::WrongPart,
     Scenery::Help,
     Scenery::Robot,
     Scenery::Cell,
@@ -373,6 +375,10 @@ fn arrange(harness: &mut WindowHarness, scenery: Scenery) {
             }
         }
         Scenery::Operator => act(harness, Action::Role(RoleAction::Switch)),
+        Scenery::WrongPart => {
+            act(harness, Action::Role(RoleAction::Switch));
+            act(harness, Action::WrongPart);
+        }
         Scenery::Help => act(harness, Action::ToggleHelp),
         Scenery::Robot => act(harness, Action::Robot(RobotAction::Toggle)),
         Scenery::RealRobot => {
@@ -392,8 +398,8 @@ fn arrange(harness: &mut WindowHarness, scenery: Scenery) {
 /// Closes what [`arrange`] opened over the window, and returns to Inspect.
 fn leave(harness: &mut WindowHarness, scenery: Scenery) {
     match scenery {
-        Scenery::Operator => {
-            arrange(harness, scenery);
+        Scenery::Operator | Scenery::WrongPart => {
+            act(harness, Action::Role(RoleAction::Switch));
             // Yes, to the engineer's view.
             harness.key_press(egui::Key::Enter);
             settle(harness);

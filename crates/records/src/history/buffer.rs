@@ -229,6 +229,17 @@ impl HistoryBuffer {
         self.queue_change_event(number, changed);
     }
 
+    /// As [`set_label`](Self::set_label), on the row that stands for a part.
+    pub fn set_part_label(&self, hung: &HungId, label: Option<&Truth>) {
+        match self.part(hung) {
+            Ok(Some(row)) => self.set_label(row.number, label),
+            Ok(None) => self.not_changed(&HistoryError::NoSuchPart {
+                path: self.place.clone().unwrap_or_default().join(FILE),
+            }),
+            Err(error) => self.not_changed(&error),
+        }
+    }
+
     /// Sets the true label of a part on the row that stands for it, and the remark if that row has none. Returns the
     /// changed row; `None` in memory only, if the part has no row.
     pub fn label_part(

@@ -132,6 +132,11 @@ impl Writer {
         self.post(move |keeper| keeper.set_label(number, label.as_ref()));
     }
 
+    /// Queues the true label of a part; `None` clears it.
+    pub fn label_part(&self, hung: HungId, label: Option<Truth>) {
+        self.post(move |keeper| keeper.set_part_label(&hung, label.as_ref()));
+    }
+
     /// Queues a new retention rule.
     pub fn retention(&self, retention: Retention) {
         self.post(move |keeper| keeper.set_retention(retention));

@@ -303,7 +303,10 @@ fn true_error(ui: &mut Ui, align: &AlignState, session: &Session) {
     } else {
         text!("align-uncertainty")
     };
-    heading(ui, &title);
+    let titled = ui.scope(|ui| heading(ui, &title)).response;
+    if !is_known {
+        titled.on_hover_text(text!("align-uncertainty-says"));
+    }
     ui.spacing_mut().interact_size.y = 20.0;
     let line = |ui: &mut Ui, name: RichText, turn: RichText, shift: RichText| {
         ui.horizontal(|ui| {

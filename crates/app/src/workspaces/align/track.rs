@@ -117,24 +117,33 @@ impl Track {
             .unwrap_or_else(RigidTransform::identity)
     }
 
-    /// Describes why and after how many iterations the method stopped.
-    pub fn ending(&self) -> String {
+    /// Describes why and after how many iterations the method stopped, and what that means.
+    pub fn ending(&self) -> [String; 2] {
         let num = self.poses.len().saturating_sub(1);
         let is_lost = self
             .true_error
-            .filter(|error| error.rotation.degrees() > 5.0);
-        match (self.stopped, is_lost) {
-            (Stopped::BelowTarget, _) => {
-                text!("align-ended-below-target", count = num)
-            }
-            (Stopped::Converged, Some(_)) => {
-                text!("align-ended-elsewhere", count = num)
-            }
-            (Stopped::Converged, None) => text!("align-ended-settled", count = num),
-            (Stopped::NoProgress, _) => {
-                text!("align-ended-gave-up", count = num)
-            }
-            (Stopped::IterationLimit, _) => text!("align-ended-moving", count = num),
+            .is_some_and(|error| error.rotation.degrees() > 5.0);
+        match self.stopped {
+            Stopped::BelowTarget => [
+                text!("align-ended-below-threshold", count = num),
+                text!("align-ended-below-threshold-says"),
+            ],
+            Stopped::Converged if is_lost => [
+                text!("align-ended-elsewhere", count = num),
+                text!("align-ended-elsewhere-says"),
+            ],
+            Stopped::Converged => [
+                text!("align-ended-converged", count = num),
+                text!("align-ended-converged-says"),
+            ],
+            Stopped::NoProgress => [
+                text!("align-ended-above-threshold", count = num),
+                text!("align-ended-above-threshold-says"),
+            ],
+            Stopped::IterationLimit => [
+                text!("align-ended-limit", count = num),
+                text!("align-ended-limit-says"),
+            ],
         }
     }
 }
@@ -251,5 +260,58 @@ mod tests {
         assert_eq!(warnings(&estimate), [loose]);
         estimate.uncertainty = None;
         assert!(warnings(&estimate).is_empty());
+    }
+    #[test]
+    fn the_end_of_a_method_is_called_by_what_happened() {
+        let ended = |stopped, true_error| {
+            let track = Track {
+                poses: vec![RigidTransform::identity(); 58],
+                e_m2: Vec::new(),
+                log_e: Vec::new(),
+                searches: Vec::new(),
+                stopped,
+                fit: FitQuality {
+                    e_m2: 0.0012,
+                    rms_m: 0.0025,
+                    overlap: 0.89,
+                    sight: None,
+                },
+                uncertainty: None,
+                true_error,
+                doubts: Vec::new(),
+            };
+            let [what, says] = track.ending();
+            assert!(!says.is_empty(), "{what}");
+            what
+        };
+        let astray = rigid::PoseDelta {
+            rotation: Radians::from_degrees(20.0),
+            shift: Metres(0.0),
+        };
+        for (stopped, true_error, expected) in [
+            (
+                Stopped::BelowTarget,
+                None,
+                "Threshold reached: E < 1e-6 m², 57 iterations",
+            ),
+            (Stopped::Converged, None, "Converged after 57 iterations"),
+            (
+                Stopped::Converged,
+                Some(astray),
+                "Converged elsewhere after 57 iterations",
+            ),
+            (
+                Stopped::NoProgress,
+                None,
+                "Threshold not reached: best of 57 iterations",
+            ),
+            (
+                Stopped::IterationLimit,
+                None,
+                "Maximum number of iterations: 57",
+            ),
+        ] {
+            assert_eq!(ended(stopped, true_error), expected);
+        }
     }
 }

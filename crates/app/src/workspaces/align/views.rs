@@ -243,13 +243,13 @@ fn heading(ui: &mut Ui, run: &MethodRun, session: &Session) {
     let ms = format!("{:.0}", run.time.as_secs_f64() * 1000.0);
     match &run.track {
         Ok(track) => {
-            let ending = track.ending();
-            let ending = RichText::new(&ending).small();
+            let [ending, says] = track.ending();
+            let ending = RichText::new(ending).small();
             if track.doubts.is_empty() {
-                ui.label(ending);
+                ui.label(ending).on_hover_text(says);
             } else {
                 ui.label(ending.color(theme.warning))
-                    .on_hover_text(doubts(track));
+                    .on_hover_text(format!("{says}\n{}", doubts(track)));
             }
             let rms = session.units.length(track.fit.rms_m);
             let overlap = format!("{:.0}", track.fit.overlap * 100.0);

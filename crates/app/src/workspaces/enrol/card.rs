@@ -6,8 +6,9 @@ use super::{
     EnrolAction, EnrolFile, EnrolState,
     draft::OpenedPart,
     fields::{self, complaint},
-    thumbnails::{Thumbnails, paint_fitted},
+    thumbnails::Thumbnails,
 };
+use crate::shared::paint_fitted;
 use inspection::library::PartMeta;
 use shell::session::Session;
 use ui::{

@@ -7,10 +7,8 @@ use egui::{
     StrokeKind, Ui, pos2, vec2,
 };
 
-use super::{
-    EnrolAction, EnrolState,
-    thumbnails::{Thumbnails, paint_fitted},
-};
+use super::{EnrolAction, EnrolState, thumbnails::Thumbnails};
+use crate::shared::paint_fitted;
 use inspection::library::{PartMeta, PartName};
 use shell::inspection::library_cache::LibraryView;
 use ui::{

@@ -8,10 +8,10 @@ use super::{
     EnrolAction, EnrolState,
     draft::{Draft, Field, Form},
     fields::{self, complaint, remark},
-    thumbnails::{Thumbnails, paint_fitted},
+    thumbnails::Thumbnails,
     title_of,
 };
-use crate::shots::summary;
+use crate::{shared::paint_fitted, shots::summary};
 use inspection::library::PartName;
 use shell::{language::painted_from, session::Session};
 use stages::reference::Coverage;

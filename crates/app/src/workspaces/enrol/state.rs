@@ -335,6 +335,7 @@ impl EnrolState {
             | Event::TracedLate(..)
             | Event::PosesWanted(_)
             | Event::WrongPart(_)
+            | Event::Labelled { .. }
             | Event::Undo(_)
             | Event::Export => {}
         }

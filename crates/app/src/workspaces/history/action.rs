@@ -100,6 +100,8 @@ pub enum HistoryJob {
     Remark(i64, String),
     /// Write a true label.
     Label(i64, Option<Truth>),
+    /// Write the true label of a part.
+    LabelPart(HungId, Option<Truth>),
     /// Apply a retention rule.
     Keep(Retention),
 }

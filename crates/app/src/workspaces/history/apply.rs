@@ -8,10 +8,11 @@ use super::{
     statistics::StatisticsView,
     work::{self, HistoryResult},
 };
+use crate::shared::truth_title;
 use records::history::{HistoryEvent, NewEntry, PruneResult, SetAside};
 use shell::{
     action::{Action, Event},
-    inspection::{inspected::Inspected, source::file_name},
+    inspection::{inspected::Inspected, library_cache::LibraryView, source::file_name},
     notice::Notice,
     session::{ReinspectionPurpose, UserRole, WorkspaceKind},
     workspace::ShellContext,
@@ -64,7 +65,10 @@ impl HistoryState {
             }
             HistoryAction::Remark(number, remark) => self.queue(HistoryJob::Remark(number, remark)),
             HistoryAction::Label(number, label) => {
-                self.asks_actual_part = false;
+                // What the operator said before may be about the same part.
+                if self.former_label.take().is_some() {
+                    cx.send(Action::WithdrawUndo(WorkspaceKind::History));
+                }
                 self.queue(HistoryJob::Label(number, label));
             }
             HistoryAction::Statistics(is_shown) => {
@@ -99,7 +103,6 @@ impl HistoryState {
         let is_other = self.selected != Some(number);
         self.selects(number);
         if is_other {
-            self.asks_actual_part = false;
             self.look(cx);
         }
     }
@@ -130,10 +133,24 @@ impl HistoryState {
                     self.apply(action, cx);
                 }
             }
-            Event::WrongPart(part) => {
-                self.choose_part(part);
-                self.asks_actual_part = true;
-                self.look(cx);
+            Event::Labelled {
+                part,
+                label,
+                former,
+            } => {
+                self.queue(HistoryJob::LabelPart(part.clone(), Some(label.clone())));
+                self.former_label = Some((part.clone(), former.clone()));
+                let unloaded = LibraryView::default();
+                let library = cx.session.library.as_deref().unwrap_or(&unloaded);
+                let title = truth_title(Some(label), library);
+                let what = text!("history-labelled", part = title);
+                cx.notify(Notice::undoable(what, WorkspaceKind::History));
+            }
+            Event::Undo(WorkspaceKind::History) => {
+                if let Some((part, former)) = self.former_label.take() {
+                    self.queue(HistoryJob::LabelPart(part, former));
+                    cx.notify(Notice::done(text!("history-label-undone")));
+                }
             }
             Event::Escape => {
                 let is_in_front = cx.session.workspace == WorkspaceKind::History;
@@ -143,7 +160,7 @@ impl HistoryState {
                     cx.send(Action::GoTo(WorkspaceKind::Inspect));
                 }
             }
-            Event::PosesWanted(_) | Event::Export | Event::Undo(_) => {}
+            Event::PosesWanted(_) | Event::WrongPart(_) | Event::Export | Event::Undo(_) => {}
         }
     }
 
@@ -155,9 +172,6 @@ impl HistoryState {
 
     /// Takes in the results of the tasks and of the file dialog.
     pub fn update(&mut self, cx: &mut ShellContext<'_>) {
-        if cx.session.workspace != WorkspaceKind::History {
-            self.asks_actual_part = false;
-        }
         while let Some(event) = self.looking.poll() {
             match event {
                 Ok(looked) => self.receive(*looked, cx),

@@ -72,11 +72,6 @@ impl Details {
         ui.spacing_mut().scroll.floating_allocated_width = space::SMALL;
         area.show(ui, |ui| {
             verdict(ui, record, of_part, session);
-            if history.asks_actual_part {
-                ui.add_space(space::SMALL);
-                let text = RichText::new(text!("history-choose-actual-part"));
-                ui.label(text.font(font::body_strong()).color(Theme::of(ui).warning));
-            }
             let is_edited = self.remark.ui(ui, &of_part.summary, session, actions);
             // The next inspection must not take the place of one that is being edited.
             if is_edited && !history.is_chosen() {

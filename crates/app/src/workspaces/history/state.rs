@@ -16,6 +16,7 @@ use super::{
     work::{self, HistoryQuery, HistoryResult, OpenedInspection, RunsView, former_title},
 };
 
+use inspection::library::Truth;
 use records::history::{Differences, HungId, Page, Retention, Summary, Usage};
 use shell::{
     file_dialog::FileDialog, inspection::inspected::Inspected, notice::Notice,
@@ -34,10 +35,6 @@ const MARGIN: usize = 100;
 
 /// State of the workspace.
 #[derive(Debug)]
-#[expect(
-    clippy::struct_excessive_bools,
-    reason = "independent flags of the list and its messages"
-)]
 pub struct HistoryState {
     /// The filter of the list.
     pub filter: ListFilter,
@@ -61,10 +58,10 @@ pub struct HistoryState {
     pub selected: Option<i64>,
     /// Whether the selection follows the newest inspection.
     selection: Selection,
-    /// How often the program has selected the newest inspection or a part; the list then shows that row.
+    /// How often the program has selected the newest inspection; the list then shows that row.
     pub(super) num_reselected: u64,
-    /// True while the operator, who saw a wrong part, is to choose what the selected one really is.
-    pub(super) asks_actual_part: bool,
+    /// The part whose true label the operator set last, and its label before, until that is undone.
+    pub(super) former_label: Option<(HungId, Option<Truth>)>,
     /// The selected inspection in full, once fetched.
     pub record: Option<Arc<OpenedInspection>>,
     /// The retention rule, and the space that kept frames take.
@@ -108,12 +105,10 @@ pub struct HistoryState {
 }
 
 /// Whether the selection follows the newest inspection.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Selection {
     /// The newest inspection is selected, and the next one replaces it.
     Newest,
-    /// The user asked for this part: it is chosen once it is written, and nothing is selected until then.
-    Opening(HungId),
     /// The user chose the selected inspection: it stays selected.
     Chosen,
 }
@@ -159,7 +154,7 @@ impl HistoryState {
             selected: None,
             selection: Selection::Newest,
             num_reselected: 0,
-            asks_actual_part: false,
+            former_label: None,
             record: None,
             kept: Default::default(),
             frames: None,
@@ -310,10 +305,6 @@ impl HistoryState {
             filter: self.filter.clone(),
             rows: start.saturating_sub(MARGIN)..end + MARGIN,
             selected: self.selected,
-            part: match &self.selection {
-                Selection::Opening(part) => Some(part.clone()),
-                Selection::Newest | Selection::Chosen => None,
-            },
             with_parts: self.parts.is_none(),
         }
     }
@@ -355,15 +346,7 @@ impl HistoryState {
         if is_hidden {
             self.selection = Selection::Newest;
         }
-        if let Selection::Opening(part) = &self.selection {
-            let found = self
-                .record
-                .as_ref()
-                .filter(|_| asked.part.as_ref() == Some(part));
-            if let Some(number) = found.map(|found| found.record.summary.number) {
-                self.selects(number);
-            }
-        } else if self.selected.is_none() || is_hidden {
+        if self.selected.is_none() || is_hidden {
             self.selected = self.page.rows.first().map(|row| row.number);
         }
     }
@@ -386,13 +369,6 @@ impl HistoryState {
         self.selection = Selection::Newest;
         self.num_reselected += 1;
         self.visible = 0..self.visible.len();
-    }
-
-    /// Selects this part, as the user's choice, whatever the list was filtered by.
-    pub(super) fn choose_part(&mut self, part: &HungId) {
-        self.select_newest();
-        self.filter = ListFilter::default();
-        self.selection = Selection::Opening(part.clone());
     }
 
     /// Moves the selection to the inspection that stands for the part, where that is wanted.

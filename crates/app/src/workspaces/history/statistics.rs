@@ -354,12 +354,7 @@ fn shifts(ui: &mut Ui, all: &[(Zoned, Tally)]) {
         &shown,
         curves.map(|(name, colour)| (name, colour, LineStyle::Solid)),
     );
-    let mut total = Tally::default();
-    for (_, tally) in all {
-        total.num_ok += tally.num_ok;
-        total.num_not_ok += tally.num_not_ok;
-    }
-    let text = text!("history-total", count = total.num(), share = total.share());
+    let text = total_in_words(all);
     let corner = rect.right_top() + vec2(-space::MEDIUM, space::MEDIUM);
     ui.painter().text(
         corner,
@@ -368,6 +363,25 @@ fn shifts(ui: &mut Ui, all: &[(Zoned, Tally)]) {
         font::small(),
         theme.weak_text,
     );
+}
+
+/// The count of all listed shifts: that of one shift alone is on its bar and in the operator's header.
+fn total_in_words(all: &[(Zoned, Tally)]) -> String {
+    let mut total = Tally::default();
+    for (_, tally) in all {
+        total.num_ok += tally.num_ok;
+        total.num_not_ok += tally.num_not_ok;
+    }
+    let (count, share) = (total.num(), total.share());
+    match all.len() {
+        0 | 1 => text!("history-total", count = count, share = share),
+        num => text!(
+            "history-total-of-shifts",
+            shifts = num,
+            count = count,
+            share = share
+        ),
+    }
 }
 
 #[cfg(test)]
@@ -417,6 +431,11 @@ mod tests {
             .map(|(start, tally)| (start.hour(), tally.num_ok, tally.num_not_ok))
             .collect();
         assert_eq!(shifts, [(22, 1, 0), (6, 0, 2), (14, 1, 0)]);
+        // The total of several shifts is not taken for that of the last.
+        let total = total_in_words(&found.shifts);
+        assert!(total.starts_with("3 shifts: 4 parts, 50"), "{total}");
+        let total = total_in_words(&found.shifts[1..2]);
+        assert!(total.starts_with("2 parts, 0"), "{total}");
         let door = Tally {
             num_ok: 2,
             num_not_ok: 1,

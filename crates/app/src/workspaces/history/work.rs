@@ -13,8 +13,8 @@ use crate::workspaces::history::{HistoryFile, filter::ListFilter};
 use records::{
     cases::{CaseFolder, PastCases, TruthFrom},
     history::{
-        Filter, HistoryBuffer, HistoryError, HungId, Page, PartOutcome, Record, Retention,
-        ServoRecord, ServoRun, StoredVerdict, Summary, Usage, write_servo_table, write_table,
+        Filter, HistoryBuffer, HistoryError, Page, PartOutcome, Record, Retention, ServoRecord,
+        ServoRun, StoredVerdict, Summary, Usage, write_servo_table, write_table,
     },
 };
 use ui::{language::text, user_error::UserError};
@@ -28,8 +28,6 @@ pub struct HistoryQuery {
     pub rows: Range<usize>,
     /// Number of the selected inspection.
     pub selected: Option<i64>,
-    /// The part whose row is wanted instead.
-    pub part: Option<HungId>,
     /// True if the parts of the whole history are wanted, for which every row is read.
     pub with_parts: bool,
 }
@@ -77,11 +75,7 @@ pub(super) fn look(
     let filter = request.filter.at(&geometry::clock::zoned_now());
     let rows = &request.rows;
     let page = history.page(&filter, rows.start, rows.len())?;
-    let selected = match &request.part {
-        Some(part) => history.part(part)?.map(|row| row.number),
-        None => request.selected,
-    };
-    let record = match selected {
+    let record = match request.selected {
         Some(number) => history.row(number)?,
         None => None,
     };

@@ -16,6 +16,7 @@ mod strip;
 #[cfg(test)]
 mod tests;
 mod view;
+mod wrong_part;
 
 use std::{path::Path, sync::Arc};
 
@@ -25,8 +26,12 @@ use self::view::SceneView;
 pub use self::{
     state::{InspectAction, InspectFile, InspectState, ViewPart},
     view::WorkCounts,
+    wrong_part::WrongPartPage,
 };
-use crate::shots::{ShotList, ShotsAction, ShotsFile, ShownShots, StripTab};
+use crate::{
+    shared::Thumbnails,
+    shots::{ShotList, ShotsAction, ShotsFile, ShownShots, StripTab},
+};
 use capture::SourceSpec;
 use shell::{
     action::Event,
@@ -68,6 +73,7 @@ pub struct InspectWorkspace {
     pub state: InspectState,
     view: SceneView,
     shots: ShotList,
+    thumbnails: Thumbnails,
     made: Option<TextureSet>,
     num_made: u64,
 }
@@ -88,6 +94,7 @@ impl InspectWorkspace {
             state: InspectState::new(runner),
             view: SceneView::new(gpu.clone()),
             shots: ShotList::default(),
+            thumbnails: Thumbnails::default(),
             made: None,
             num_made: 0,
         }
@@ -111,6 +118,31 @@ impl InspectWorkspace {
             let shot = self.view.shot(ui.pixels_per_point());
             self.state.take_picture(shot, cx);
         }
+    }
+
+    /// Draws the operator's view, or the page on what a part really is.
+    fn operators_ui(&mut self, ui: &mut Ui, cx: &mut ShellContext<'_>) -> Rect {
+        let session = cx.session;
+        let mut actions = Vec::new();
+        let room = if let Some(page) = &mut self.state.wrong_part {
+            self.thumbnails.make(ui.ctx(), page.library());
+            page.ui(ui, &self.thumbnails, &mut actions)
+        } else {
+            if let Some(shown) = &session.shown {
+                self.make(ui.ctx(), shown);
+                self.view.frame_part(shown);
+            }
+            operator::ui(ui, session, &mut actions, |ui| {
+                if let Some(shown) = &session.shown {
+                    self.view.plain_ui(ui, session, &shown.inspected);
+                }
+            })
+        };
+        self.hand_over_picture(ui, cx);
+        for action in actions {
+            self.state.apply(action, cx);
+        }
+        room
     }
 
     /// Draws the strip: the stages, or the list of shots of a scan.
@@ -208,21 +240,7 @@ impl Workspace for InspectWorkspace {
     fn ui(&mut self, ui: &mut Ui, cx: &mut ShellContext<'_>) -> Rect {
         let (session, theme) = (cx.session, Theme::of(ui));
         if session.is_operator_view() {
-            if let Some(shown) = &session.shown {
-                self.make(ui.ctx(), shown);
-                self.view.frame_part(shown);
-            }
-            let mut actions = Vec::new();
-            let room = operator::ui(ui, session, &mut actions, |ui| {
-                if let Some(shown) = &session.shown {
-                    self.view.plain_ui(ui, session, &shown.inspected);
-                }
-            });
-            self.hand_over_picture(ui, cx);
-            for action in actions {
-                self.state.apply(action, cx);
-            }
-            return room;
+            return self.operators_ui(ui, cx);
         }
         let Some(shown) = &session.shown else {
             ui.painter().rect_filled(ui.max_rect(), 0.0, theme.canvas);

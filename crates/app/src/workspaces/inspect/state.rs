@@ -7,8 +7,10 @@ use crate::{
     workspaces::inspect::{
         hold::Hold,
         robot_numbers::{clipboard_text, numbered},
+        wrong_part::WrongPartPage,
     },
 };
+use inspection::library::Truth;
 use records::history::Traceability;
 use shell::{
     action::{Action, Event},
@@ -97,6 +99,8 @@ pub struct InspectState {
     pub candidate: usize,
     /// State of the list of shots, if a scan is shown.
     pub shots: ShotsState,
+    /// The page on which the operator says what a part really is, while it is open.
+    pub wrong_part: Option<WrongPartPage>,
     /// File for a picture of the view, until the picture is taken.
     picture_to: Option<PathBuf>,
     /// Folder for a report, until a picture of the view is taken for it.
@@ -126,6 +130,7 @@ impl InspectState {
             enlarged: None,
             candidate: 0,
             shots: ShotsState::default(),
+            wrong_part: None,
             picture_to: None,
             report_to: None,
             seen: None,
@@ -194,6 +199,12 @@ impl InspectState {
                     .open(file, &file.request(cx.session), lock, cx.egui);
             }
             InspectAction::Chosen(file, path) => self.chosen(file, path, cx),
+            InspectAction::ActualPart(label) => {
+                if let Some(page) = self.wrong_part.take() {
+                    cx.send(Action::Tell(page.labelled(label)));
+                }
+            }
+            InspectAction::LeaveWrongPart => self.wrong_part = None,
         }
     }
 
@@ -258,11 +269,15 @@ impl InspectState {
                 self.apply(InspectAction::Ask(file), cx);
             }
             Event::Export => self.apply(InspectAction::Ask(InspectFile::Report), cx),
-            Event::Escape => self.enlarged = None,
+            Event::Escape => {
+                self.enlarged = None;
+                self.wrong_part = None;
+            }
+            Event::WrongPart(part) => self.wrong_part = WrongPartPage::about(part, cx.session),
             Event::Left(_)
             | Event::TracedLate(..)
             | Event::EngineerIn
-            | Event::WrongPart(_)
+            | Event::Labelled { .. }
             | Event::Undo(_) => {}
         }
     }
@@ -295,6 +310,9 @@ impl InspectState {
     /// Takes in the results of the task and of the file dialog, and follows the result shown.
     pub fn update(&mut self, cx: &mut ShellContext<'_>) {
         cx.notify_written(&mut self.writing);
+        if !cx.session.is_operator_view() {
+            self.wrong_part = None;
+        }
         if let Some((file, path)) = cx.chosen(&mut self.dialog) {
             self.chosen(file, path, cx);
         }
@@ -461,6 +479,10 @@ pub enum InspectAction {
     Ask(InspectFile),
     /// A file was chosen.
     Chosen(InspectFile, PathBuf),
+    /// The operator says what the part really is.
+    ActualPart(Truth),
+    /// Back to the operator's view, without a change.
+    LeaveWrongPart,
 }
 
 /// A file or folder that a person is asked for.

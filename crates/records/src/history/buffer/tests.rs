@@ -298,6 +298,20 @@ fn a_label_goes_to_the_row_that_stands_for_the_part_whether_it_waits_or_is_writt
     let unknown = |keeper: &HistoryBuffer| keeper.label_part(&HungId::new(), &Truth::Nothing, "");
     let refused = unknown(&keeper).expect_err("no such part");
     assert!(refused.to_string().contains("no inspection of this part"));
+    keeper.take_news();
+    for part in [&hung, &HungId::new()] {
+        keeper.set_part_label(part, None);
+    }
+    assert_eq!((row(2).label, row(2).remark), (None, bent()));
+    let news = keeper.take_news();
+    assert!(
+        matches!(
+            &news[..],
+            [HistoryEvent::Changed { number: 2 }, HistoryEvent::NotChanged { what, .. }]
+                if what.contains("no inspection of this part")
+        ),
+        "{news:?}"
+    );
     let in_memory = HistoryBuffer::default();
     assert_eq!(unknown(&in_memory).expect("asked"), None);
 }

@@ -9,6 +9,7 @@ use records::{
 use shell::{
     action::{Action, Event},
     inspection::{inspected::inspected_cell, source::CellChoice},
+    notice::NoticeKind,
     session::{ReinspectionPurpose, UserRole, WorkspaceKind},
     workspace::TestShell,
 };
@@ -135,53 +136,50 @@ fn a_row_that_was_chosen_stays_selected_though_it_was_the_newest() {
 }
 
 #[test]
-fn the_part_on_the_screen_is_opened_as_the_wrong_one_once_it_is_written_and_stays() {
+fn what_the_operator_says_of_a_part_is_written_and_undone_once() {
     let found = inspected(1);
-    let mut bench = Bench::listing(&found, &[3, 2, 1]);
-    bench.history.filter.text = "door".into();
-    bench.history.on_event(
-        &Event::WrongPart(found.hung().clone()),
-        &mut bench.shell.context(),
-    );
-    let asked = bench.history.wanted();
-    assert_eq!(asked.part.as_ref(), Some(found.hung()));
-    assert_eq!(asked.filter, ListFilter::default());
-    // Not the newest row, nor another part that is written meanwhile.
-    let record = |number| {
-        let mut record = found.entry.record.clone();
-        record.summary.number = number;
-        Arc::new(OpenedInspection {
-            record,
-            picture: None,
-            part: Vec::new(),
+    let mut bench = Bench::new();
+    let part = found.hung().clone();
+    let label = Truth::Part("grille".into());
+    let labelled = Event::Labelled {
+        part: part.clone(),
+        label: label.clone(),
+        former: Some(Truth::Nothing),
+    };
+    let undo = Event::Undo(WorkspaceKind::History);
+    // What another workspace offers to undo is not meant.
+    let other = Event::Undo(WorkspaceKind::Enrol);
+    for event in [&labelled, &other, &undo, &undo] {
+        bench.history.on_event(event, &mut bench.shell.context());
+    }
+    let jobs = std::mem::take(&mut bench.history.jobs);
+    let written: Vec<_> = jobs
+        .into_iter()
+        .map(|job| match job {
+            HistoryJob::LabelPart(of, label) => (of, label),
+            job => panic!("{job:?}"),
         })
-    };
-    let looked = |record| HistoryResult {
-        asked: asked.clone(),
-        page: Page {
-            num_matching: 3,
-            num_all: 3,
-            rows: [3, 2, 1].map(|number| row(&found, number)).into(),
-        },
-        far_row: None,
-        record,
-        is_listed: true,
-        kept: Default::default(),
-        frames: None,
-        parts: None,
-        num_servo_runs: 0,
-    };
-    let mut receive = |record, number| {
-        bench
-            .history
-            .receive(looked(record), &mut bench.shell.context());
-        let ticket = bench.history.ticket(&HungId::new(), Some(&found));
-        bench.take_news(HistoryEvent::Added { ticket, number });
-        bench.history.selected
-    };
-    assert_eq!(receive(None, 4), None);
-    assert_eq!(receive(Some(record(2)), 5), Some(2));
-    assert_eq!(bench.history.wanted().part, None);
+        .collect();
+    let expected = [(part.clone(), Some(label)), (part, Some(Truth::Nothing))];
+    assert_eq!(written, expected);
+    let offers = bench.shell.sent.iter().filter(|action| match action {
+        Action::Notify(notice) => notice.kind == NoticeKind::Undoable(WorkspaceKind::History),
+        _ => false,
+    });
+    assert_eq!((offers.count(), bench.shell.notices().len()), (1, 2));
+    assert!(!bench.history.is_settled());
+
+    // Labelled in History since: the offer goes.
+    bench
+        .history
+        .on_event(&labelled, &mut bench.shell.context());
+    bench.act(HistoryAction::Label(1, None));
+    let is_withdrawn =
+        |action: &Action| matches!(action, Action::WithdrawUndo(WorkspaceKind::History));
+    assert!(bench.shell.sent.iter().any(is_withdrawn));
+    bench.history.jobs.clear();
+    bench.history.on_event(&undo, &mut bench.shell.context());
+    assert!(bench.history.jobs.is_empty());
 }
 
 #[test]
