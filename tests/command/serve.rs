@@ -580,8 +580,8 @@ fn the_program_of_a_robot_is_tried_on_a_simulated_arm_that_stands_where_it_says(
     let done = loop {
         let answer = asked(&mut robot, &format!("SERVO {start}3 {pose}\n"));
         start = "";
-        let fields: Vec<&str> = answer.split(';').collect();
-        match fields[1] {
+        let fields: Vec<String> = answer.split(';').map(str::to_owned).collect();
+        match &*fields[1] {
             "move" => {
                 lefts.push(fields[20].parse::<f64>().expect("an error"));
                 pose = fields[12..18].join(" ");

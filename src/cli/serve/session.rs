@@ -29,7 +29,7 @@ use records::{
 };
 use serde_json::json;
 use serve::{
-    Asked, ClientEvent, ClientNews, ExpectedNumbers, Found, FrameParts, InspectionRecord,
+    Answer, Asked, ClientEvent, ClientNews, ExpectedNumbers, Found, FrameParts, InspectionRecord,
     Inspector, Problem, ServoRequest, VerdictCode,
 };
 use station::{
@@ -208,6 +208,7 @@ impl ServeSession<'_> {
             Err(why) => {
                 return Found {
                     verdict: VerdictCode::Stay,
+                    marks: Answer::SIMULATED,
                     problem: Problem::of(why.kind(), why),
                     ..Found::default()
                 };

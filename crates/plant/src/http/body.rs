@@ -55,8 +55,9 @@ impl TriggerBody {
         if expected.contains(&0) || places.len() > expected.len() {
             return None;
         }
-        let is_count = |count| (i64::from(i32::MIN)..=i64::from(u32::MAX)).contains(&count);
-        if !count.is_none_or(is_count) || (count.is_none() && count_age_ms.is_some()) {
+        let counts = i64::from(i32::MIN)..=i64::from(u32::MAX);
+        let is_none = |count: i64| !counts.contains(&count);
+        if count.is_some_and(is_none) || (count.is_none() && count_age_ms.is_some()) {
             return None;
         }
         // A negative count is that of a counter of 32 bits.

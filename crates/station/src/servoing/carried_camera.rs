@@ -239,9 +239,15 @@ mod tests {
         };
         let start = carried.flange();
         let first = robot_from_part(&Asked::now());
-        let aside = RigidTransform::translation(0.0, 0.05, 0.03) * start;
-        let asked = carried.stand(&aside, &Asked::now()).expect("within reach");
-        assert!((carried.flange().translation.vector - aside.translation.vector).norm() < 1e-6);
+        // Where the part is at its standard position in front of the camera.
+        let there = first * carried.place.mount_from_camera().inverse();
+        let way = |to: &RigidTransform| {
+            let flange = carried.flange().translation.vector;
+            (flange - to.translation.vector).norm()
+        };
+        assert!(way(&start) < 1e-6 && way(&there) > 0.05);
+        let asked = carried.stand(&there, &Asked::now()).expect("within reach");
+        assert!(way(&there) < 1e-6);
         let second = robot_from_part(&asked);
         // The part hangs where it hung, whatever the camera looks from.
         let moved = (first.translation.vector - second.translation.vector).norm();
@@ -249,6 +255,6 @@ mod tests {
         let far = RigidTransform::translation(9.0, 0.0, 0.0);
         let away = carried.stand(&far, &Asked::now()).err();
         assert_eq!(away, Some(StopReason::OutOfReach));
-        assert!((carried.flange().translation.vector - aside.translation.vector).norm() < 1e-6);
+        assert!(way(&there) < 1e-6);
     }
 }
