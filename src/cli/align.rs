@@ -31,7 +31,7 @@ Examples:
   partsight align scan.ply door.stl --json
 
 Both are in metres. A mesh is sampled evenly. The result maps points of SOURCE onto TARGET.
-Exit codes: 0 aligned, 1 no pose was found or it should not be relied upon (hardly any overlap, ambiguous, not
+Exit codes: 0 aligned, 1 no pose was found or it should not be relied upon (hardly any overlap, ambiguous, not \
 settled; the reason says which), 2 a file could not be read.
 With --json there is a line even if no pose was found: target_from_source is then null, and reason says why.")]
 pub(super) struct AlignArgs {

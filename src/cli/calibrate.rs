@@ -34,7 +34,7 @@ Examples:
   partsight calibrate line fender frames/*.png --counts counts.csv
 
 The calibration is a text file, by default cell.toml in your data folder, where the other commands find it.
-Conventions: matrix (16 numbers, metres), quaternion-xyzw, rotation-vector, kuka, fanuc, abb, universal-robots,
+Conventions: matrix (16 numbers, metres), quaternion-xyzw, rotation-vector, kuka, fanuc, abb, universal-robots, \
 yaskawa, staubli, doosan. Units and order of each: partsight report --conventions")]
 pub(super) struct CalibrateArgs {
     #[command(subcommand)]
@@ -58,7 +58,7 @@ Examples:
   partsight calibrate set \"0 0 1 1.2  -1 0 0 -0.4  0 -1 0 1.9  0 0 0 1\" --mount eye-to-hand
   partsight calibrate set \"fanuc 50 0 90 0 0 90\" --mount eye-in-hand --name \"Cell 2\"
 
-The numbers are robot_from_camera (eye to hand) or flange_from_camera (eye in hand): where the camera's frame (x right,
+The numbers are robot_from_camera (eye to hand) or flange_from_camera (eye in hand): where the camera's frame (x right, \
 y down, z forward) stands in the robot's base frame, or in the flange's.")]
 struct SetArgs {
     /// The convention and its numbers, or the 16 numbers of a matrix in metres, row after row

@@ -39,9 +39,9 @@ Examples:
   partsight enrol door.stl --name door_left --units mm --up z
   partsight enrol car.gltf#Door_FL --name door_left --library /media/stick/parts
 
-An organised cloud or a depth image is a captured scene: the part in front of the wall is cut out of it. Anything
+An organised cloud or a depth image is a captured scene: the part in front of the wall is cut out of it. Anything \
 else is taken whole. A part of the same name is replaced; the previous version is kept in the library's .trash folder.
-With --scan the frames are fused as by partsight scan. The part's frame is then the camera's frame of the first used shot,
+With --scan the frames are fused as by partsight scan. The part's frame is then the camera's frame of the first used shot, \
 and the part can be recognised from every side from which most of its surface was seen.")]
 pub(super) struct EnrolArgs {
     /// A captured scene, a cloud, or a mesh (FILE#NAME for one mesh of a glTF file)

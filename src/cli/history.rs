@@ -46,10 +46,10 @@ Examples:
   partsight history keep all --days 30 --gigabytes 50
   partsight history runs --since today            # runs of visual servoing; run 3 --json has the curve of one
 
-Each row is one hung part; for a followed source, with the verdict that counted. A part that was inspected again while it
-hung there, with another recipe or library or because its verdict changed, stays one row, with its re-inspections below it
+Each row is one hung part; for a followed source, with the verdict that counted. A part that was inspected again while it \
+hung there, with another recipe or library or because its verdict changed, stays one row, with its re-inspections below it \
 (history show NUMBER, or --reinspections). An acceptance replaces a refusal of the same part, never the reverse.
-Times are shown in local time, in files and JSON in UTC. A frame that is no longer kept can neither be inspected again nor
+Times are shown in local time, in files and JSON in UTC. A frame that is no longer kept can neither be inspected again nor \
 become a case; `partsight history keep` shows which are kept.")]
 pub(super) struct HistoryArgs {
     #[command(flatten)]

@@ -12,9 +12,8 @@ fn number(text: &str, key: &str) -> f64 {
     line.expect(key).parse().expect("a number")
 }
 
-#[test]
-fn a_line_is_calibrated_from_frames_and_counts_and_refused_with_what_to_do() {
-    let shop = Workplace::new();
+/// Simulates the frames of a passing part in a folder `passing`, and returns the part's name and the frames.
+fn passing(shop: &Workplace) -> (String, Vec<String>) {
     let made = shop.accepted(&["simulate", "--line", "passing"]);
     let told = made
         .out
@@ -22,9 +21,14 @@ fn a_line_is_calibrated_from_frames_and_counts_and_refused_with_what_to_do() {
         .nth(1)
         .expect("what to do next");
     let part = told.split_whitespace().nth(2).expect("the part").to_owned();
-    let frames: Vec<String> = (1..=12)
-        .map(|k| format!("passing/frame-{k:02}.png"))
-        .collect();
+    let frames = (1..=12).map(|k| format!("passing/frame-{k:02}.png"));
+    (part, frames.collect())
+}
+
+#[test]
+fn a_line_is_calibrated_from_frames_and_counts_and_refused_with_what_to_do() {
+    let shop = Workplace::new();
+    let (part, frames) = passing(&shop);
     let with = |counts: &str, more: &[&str]| {
         let mut args = vec!["calibrate", "line", &part];
         args.extend(frames.iter().map(String::as_str));
@@ -46,6 +50,55 @@ fn a_line_is_calibrated_from_frames_and_counts_and_refused_with_what_to_do() {
 
     assert!(number(&text, "delay_bound_ms") == 0.0, "{text}");
 
+    let written = fs::read_to_string(shop.path("passing/counts.csv")).expect("counts");
+    let counts: Vec<String> = (written.lines())
+        .filter(|line| !line.starts_with('#'))
+        .map(|line| format!("{}; 7\n", line.split(';').next().expect("a name")))
+        .collect();
+    let counts = counts.concat();
+    shop.write("still.csv", &counts);
+    let ran = with("still.csv", &["--out", "none.toml"]);
+    assert_eq!(ran.code, 2, "{}", ran.err);
+    assert!(
+        ran.err.contains("do not change") && ran.err.contains("to do"),
+        "{}",
+        ran.err
+    );
+    assert!(!shop.path("none.toml").exists());
+    shop.write("few.csv", "frame-01.png; 1\n");
+    let ran = with("few.csv", &[]);
+    assert!(
+        ran.code == 2 && ran.err.contains("no count of frame-02.png"),
+        "{}",
+        ran.err
+    );
+    shop.write("bad.csv", "frame-01.png; 1.5\n");
+    let ran = with("bad.csv", &[]);
+    assert!(
+        ran.code == 2 && ran.err.contains("is no count of an encoder"),
+        "{}",
+        ran.err
+    );
+
+    // A file that was edited is not used.
+    shop.write(
+        "edited.toml",
+        &text.replace("counter_bits = 32", "counter_bits = 16"),
+    );
+    let source = ["--source", "simulated:conveyor", "--frames", "1"];
+    let args = [&["inspect"], &source[..], &["--line", "edited.toml"]].concat();
+    let ran = shop.run(&args);
+    assert!(
+        ran.code == 2 && ran.err.contains("its checksum does not match"),
+        "{}",
+        ran.err
+    );
+}
+
+#[test]
+fn frames_after_a_stop_tell_how_late_the_camera_delivers() {
+    let shop = Workplace::new();
+    let (part, frames) = passing(&shop);
     let written = fs::read_to_string(shop.path("passing/counts.csv")).expect("counts");
     // The same, as if the last three frames showed the part after a stop at 100 mm/s, and the others came 80 ms late.
     let rows: Vec<(&str, i64)> = (written.lines())
@@ -93,47 +146,4 @@ fn a_line_is_calibrated_from_frames_and_counts_and_refused_with_what_to_do() {
     let (delay, bound) = (number(&late, "delay_ms"), number(&late, "delay_bound_ms"));
     assert!(bound > 1.0 && bound < 150.0, "{late}");
     assert!((delay - 80.0).abs() <= bound, "{late}");
-
-    let counts: Vec<String> = (written.lines())
-        .filter(|line| !line.starts_with('#'))
-        .map(|line| format!("{}; 7\n", line.split(';').next().expect("a name")))
-        .collect();
-    let counts = counts.concat();
-    shop.write("still.csv", &counts);
-    let ran = with("still.csv", &["--out", "none.toml"]);
-    assert_eq!(ran.code, 2, "{}", ran.err);
-    assert!(
-        ran.err.contains("do not change") && ran.err.contains("to do"),
-        "{}",
-        ran.err
-    );
-    assert!(!shop.path("none.toml").exists());
-    shop.write("few.csv", "frame-01.png; 1\n");
-    let ran = with("few.csv", &[]);
-    assert!(
-        ran.code == 2 && ran.err.contains("no count of frame-02.png"),
-        "{}",
-        ran.err
-    );
-    shop.write("bad.csv", "frame-01.png; 1.5\n");
-    let ran = with("bad.csv", &[]);
-    assert!(
-        ran.code == 2 && ran.err.contains("is no count of an encoder"),
-        "{}",
-        ran.err
-    );
-
-    // A file that was edited is not used.
-    shop.write(
-        "edited.toml",
-        &text.replace("counter_bits = 32", "counter_bits = 16"),
-    );
-    let source = ["--source", "simulated:conveyor", "--frames", "1"];
-    let args = [&["inspect"], &source[..], &["--line", "edited.toml"]].concat();
-    let ran = shop.run(&args);
-    assert!(
-        ran.code == 2 && ran.err.contains("its checksum does not match"),
-        "{}",
-        ran.err
-    );
 }

@@ -99,7 +99,7 @@ mod tests {
 
     use super::*;
     use crate::line::{Counter, fit};
-    use geometry::rigid::RigidTransform;
+    use geometry::{error::Advice as _, rigid::RigidTransform};
 
     const PER_COUNT_M: f64 = 0.0001;
 

@@ -328,7 +328,7 @@ fn messages_of_egm_are_those_of_a_program_by_others() {
     let read = stream.receive(&robot).expect("read").expect("a report");
     let rotation = Quaternion::new(0.5, -0.5, 0.5, 0.5);
     let pose = RigidTransform::from_parts(
-        Translation3::new(1.0005, -0.20025, 1.200125),
+        Translation3::new(1.0005, -0.20025, 1.200_125),
         UnitQuaternion::from_quaternion(rotation),
     );
     let off = pose_error(&read.robot_from_flange, &pose, &Point3::origin());

@@ -523,7 +523,7 @@ fn triggers_are_answered_at_their_counts_though_frames_are_delayed_and_arrive_la
                 count: Some(Counter::Bits32.shown(simulated.count(asked_at))),
                 order: AskedOrder {
                     order: ["4711", "4711", "4711", "", "4712", "4713", ""][k].into(),
-                    serial: String::new(),
+                    ..AskedOrder::default()
                 },
                 count_age,
                 ..Asked::now()
@@ -569,11 +569,8 @@ fn triggers_are_answered_at_their_counts_though_frames_are_delayed_and_arrive_la
             let middle = reference.and_then(Reference::middle).expect("points");
             let pose = found.pose.expect("accepted");
             let off = pose_error(&pose, &finder.robot.robot_from_part(&truth), &middle).shift;
-            assert!(
-                off.mm() <= here.bound_mm,
-                "{k}: {off} off, {} mm",
-                here.bound_mm
-            );
+            let bound_mm = here.bound_mm;
+            assert!(off.mm() <= bound_mm, "{k}: {off} off, {bound_mm} mm");
         }
     }
 }

@@ -39,7 +39,7 @@ Examples:
   partsight library publish --to /mnt/plant/library --key keys/library.key --note \"New doors\"
   partsight library publish --to s3://parts/hall-3 --key keys/library.key --library parts
 
-A store is an existing folder, or s3://BUCKET/PREFIX. S3 takes endpoint, region and credentials from AWS_ENDPOINT,
+A store is an existing folder, or s3://BUCKET/PREFIX. S3 takes endpoint, region and credentials from AWS_ENDPOINT, \
 AWS_REGION, AWS_ACCESS_KEY_ID and AWS_SECRET_ACCESS_KEY; over plain HTTP only with AWS_ALLOW_HTTP=true.
 Every part is loaded first, so that only a library that can be taken is published.")]
 pub(crate) struct PublishArgs {
