@@ -258,17 +258,15 @@ fn action_buttons(
     });
 }
 
-/// Heads the figures with the part that they belong to, if the headline does not name it.
+/// Heads the figures with the part that they belong to, if the headline does not call what hangs there by its name.
 fn as_part(ui: &mut Ui, inspected: &Inspected, headline: &Headline) {
     let verdict = &inspected.inspection.verdict;
     let Some(guess) = verdict.guess().filter(|_| verdict.is_named()) else {
         return;
     };
-    let part = inspected.library.title_of(guess);
-    if !headline.state.is_accepted()
-        && headline.state != HeadlineState::Open
-        && !headline.title.contains(part)
-    {
+    let found = verdict.identification(&inspected.recipe.accept);
+    if headline.state != HeadlineState::Open && !found.is_of_type() {
+        let part = inspected.library.title_of(guess);
         heading(ui, &text!("inspect-as-part", part = part));
     }
 }
