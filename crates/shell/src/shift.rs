@@ -9,7 +9,7 @@ use jiff::{Timestamp, Zoned};
 
 use crate::session::{Session, ShiftParts, Source, UserRole};
 use geometry::error::lock;
-use records::history::{Filter, HistoryBuffer, HistoryError, HungId, StoredVerdict};
+use records::history::{Filter, HistoryBuffer, HistoryError, HungId, PartOutcome, StoredVerdict};
 use ui::{
     language::text,
     task::{Task, TaskRunner},
@@ -161,6 +161,8 @@ fn count(
     };
     let mut outcomes = history.outcomes(&all)?;
     outcomes.retain(|part| part.verdict != StoredVerdict::NoPart);
+    let num_parts = outcomes.len();
+    outcomes.retain(PartOutcome::is_judged);
     let num_ok = outcomes.iter().filter(|part| part.is_ok).count();
     let mut last = Vec::new();
     for verdict in StoredVerdict::ALL {
@@ -178,6 +180,7 @@ fn count(
         since: Some(since),
         num_ok,
         num_not_ok: outcomes.len() - num_ok,
+        num_not_judged: num_parts - outcomes.len(),
         last,
         ..none
     })
