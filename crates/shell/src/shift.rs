@@ -193,12 +193,13 @@ mod tests {
     use super::*;
     use crate::{
         inspection::{inspected::inspected_cell, source::CellChoice},
-        session::Shown,
+        session::{Shown, past_mark},
         state::State,
     };
     use capture::fixtures::moment;
-    use inspection::library::Truth;
+    use inspection::{library::Truth, pipeline::RefusalKind};
     use records::fixtures::history_entry;
+    use ui::widgets::Mark;
 
     #[test]
     fn a_part_that_was_reported_as_wrong_is_not_ok_and_both_views_know_it() {
@@ -267,6 +268,32 @@ mod tests {
         let kinect = Source::Camera(Box::new("kinect".parse().expect("a source")));
         let sources = [Some(kinect), Some(Source::default()), None];
         assert_eq!(sources.map(counted), [2, 0, 0]);
+    }
+
+    #[test]
+    fn a_part_that_a_slow_computer_did_not_judge_is_neither_ok_nor_not_ok() {
+        let history = HistoryBuffer::new(None);
+        for (seconds, reason) in (1..).zip(["low_score", "too_slow", "few_frames"]) {
+            let mut entry = history_entry(seconds, StoredVerdict::Rejected, "fender");
+            entry.record.summary.source = "kinect".into();
+            entry.record.summary.reason = Some(RefusalKind::named(reason));
+            history.add(seconds as u64, entry, Instant::now());
+        }
+        let none = ShiftParts {
+            source: Some(Source::Camera(Box::new(
+                "kinect".parse().expect("a source"),
+            ))),
+            ..ShiftParts::default()
+        };
+        let since = moment(0).to_zoned(jiff::tz::TimeZone::UTC);
+        let shift = count(&history, since, none).expect("counted");
+        let counts = [shift.num_ok, shift.num_not_ok, shift.num_not_judged];
+        assert_eq!(counts, [0, 1, 2]);
+        let marks = shift.last.iter().map(past_mark);
+        assert_eq!(
+            marks.collect::<Vec<_>>(),
+            [Mark::Open, Mark::Open, Mark::Bad]
+        );
     }
 
     #[test]

@@ -15,7 +15,7 @@ use std::{
         atomic::{AtomicBool, Ordering},
     },
     thread::{self, JoinHandle},
-    time::{Duration, SystemTime},
+    time::{Duration, Instant, SystemTime},
 };
 
 use jiff::Timestamp;
@@ -37,6 +37,8 @@ const MAX_REMEMBERED: usize = 128;
 /// Watches a source until it is dropped.
 pub struct MotionWatch {
     seen: Arc<Seen>,
+    /// It sees what arrives from then on.
+    began: Instant,
     is_ending: Arc<AtomicBool>,
     thread: Option<JoinHandle<()>>,
 }
@@ -116,12 +118,14 @@ impl MotionWatch {
     pub(super) fn start(feed: &Feed) -> Result<Self, CaptureError> {
         let (seen, is_ending) = (Arc::<Seen>::default(), Arc::<AtomicBool>::default());
         let (theirs, ends, tap) = (Arc::clone(&seen), Arc::clone(&is_ending), feed.tap());
+        let began = Instant::now();
         let thread = thread::Builder::new()
             .name("motion".into())
             .spawn(move || theirs.follow(&tap, &ends))
             .map_err(|source| CaptureError::NoThread { source })?;
         Ok(Self {
             seen,
+            began,
             is_ending,
             thread: Some(thread),
         })
@@ -140,6 +144,9 @@ impl MotionWatch {
     /// What was known of the scene after this frame, by all frames up to it; nothing if they were not seen in time.
     pub fn motion_of(&self, captured: &Captured) -> SceneMotion {
         let at = time_of(captured);
+        if captured.arrived < self.began {
+            return SceneMotion::default();
+        }
         self.seen.up_to(at).frames.motion_at(at)
     }
 }
