@@ -74,14 +74,13 @@ impl SeenPart {
         shows_part && self.spot.is_some() && self.verdict.counted().is_none()
     }
 
-    /// Of a part that hangs still, and of which too few frames were inspected, says that the computer is too slow: what single
-    /// frames say is no verdict, good or bad.
+    /// Of a part of which too few frames were inspected, says that the computer is too slow: what single frames say is no verdict,
+    /// good or bad.
     fn refuse_at_pace(&mut self, pace: Pace) {
-        let is_unknown = self.inspection.verdict.is_unknown();
-        if let (LiveVerdict::Gathering { .. }, Verdict::Part { part, rejected, .. }) =
-            (&self.verdict, &mut self.inspection.verdict)
-            && !is_unknown
-        {
+        if !self.is_waiting() || self.inspection.verdict.is_unknown() {
+            return;
+        }
+        if let Verdict::Part { part, rejected, .. } = &mut self.inspection.verdict {
             *rejected = Some(pace.refusal(part.clone()));
         }
     }
@@ -133,7 +132,7 @@ impl<'a> SeenFrame<'a> {
         let is_moving = tracker.stillness() == MotionState::Moving;
         let waits = !is_moving && parts.iter().any(SeenPart::is_waiting);
         tracker.judged(self.number, waits);
-        if let Some(pace) = tracker.slow() {
+        if let Some(pace) = tracker.slow().filter(|_| !is_moving) {
             for part in &mut parts {
                 part.refuse_at_pace(pace);
             }
