@@ -248,7 +248,9 @@ fn inspect_source(
     let mut outcome = Outcome::Accepted;
     let mut num_inspected = 0;
     let feed = start_source(source)?;
-    let watch = MotionWatch::of_source(source, &feed).advised()?;
+    let needs_motion = inspector.station.needs_motion();
+    let watch = needs_motion.then(|| MotionWatch::of_source(source, &feed));
+    let watch = watch.transpose().advised()?.flatten();
     let watch = watch.as_ref();
     let mut is_slow = false;
     let followed = follow_started(source, &feed, console, |item, status, console| {

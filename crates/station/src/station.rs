@@ -135,6 +135,11 @@ impl<E> Station<E> {
         !self.waiting.is_empty()
     }
 
+    /// True if parts hang before the source, so that it matters whether anything moves between the inspected frames.
+    pub fn needs_motion(&self) -> bool {
+        matches!(self.following, Following::Hanging(_))
+    }
+
     /// The pace, if a verdict has waited two seconds or longer because fewer than half of the camera's frames are inspected.
     pub fn held_up_by(&self) -> Option<Pace> {
         match &self.following {

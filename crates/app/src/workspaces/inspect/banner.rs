@@ -386,7 +386,7 @@ mod tests {
     use geometry::rigid::RigidTransform;
     use inspection::pipeline::{
         Rejection,
-        live::{LiveVerdict, MotionState},
+        live::{LiveVerdict, MotionState, Pace},
     };
     use robot::RobotFrame;
     use shell::{
@@ -594,6 +594,29 @@ mod tests {
             let reason = reason(choice, moves);
             assert!(!reason.contains("4711"), "{reason}");
         }
+    }
+
+    #[test]
+    fn a_part_that_waits_for_a_slow_computer_is_not_nok_and_the_operator_knows_why() {
+        let mut inspected = inspected_cell(CellChoice::InTurn, 1);
+        inspected.followed = Some(LiveFrameContext {
+            stillness: MotionState::Watching,
+            standing: LiveVerdict::Open,
+        });
+        let mut session = showing(inspected, false);
+        session.live.is_on = true;
+        session.live.status = Some(LiveStatus {
+            stillness: Some(MotionState::Watching),
+            held_up_by: Some(Pace {
+                num_inspected: 2,
+                num_frames: 30,
+            }),
+            ..status(SourceState::Running)
+        });
+        let banner = Banner::of(&session);
+        assert_eq!(banner.tone, Tone::Open);
+        assert!(banner.reason.contains("2 of 30 frames"), "{banner:?}");
+        assert!(banner.next.contains("close other programs"), "{banner:?}");
     }
 
     #[test]
