@@ -21,16 +21,30 @@ pub(super) fn parse_source(text: &str) -> Result<SourceSpec, String> {
         .map_err(|error| with_advice(&error))
 }
 
+/// Starts a source.
+pub(super) fn start_source(spec: &SourceSpec) -> anyhow::Result<Feed> {
+    Feed::start(spec.clone(), BackpressurePolicy::for_source(spec), || ()).advised()
+}
+
+/// Starts a source, and passes what it gives to `each`, as [`follow_started`].
+pub(super) fn follow(
+    spec: &SourceSpec,
+    console: &mut Console,
+    each: impl FnMut(Option<FeedItem>, &FeedStatus, &mut Console) -> anyhow::Result<ControlFlow<()>>,
+) -> anyhow::Result<FeedStatus> {
+    follow_started(spec, &start_source(spec)?, console, each)
+}
+
 /// Passes what a source gives to `each` until that breaks, the source ends, the output cannot be written, or Ctrl-C.
 /// While nothing comes, `each` gets `None` about ten times a second. It always gets the status of the feed too, whose last
 /// value is returned.
-pub(super) fn follow(
+pub(super) fn follow_started(
     spec: &SourceSpec,
+    feed: &Feed,
     console: &mut Console,
     mut each: impl FnMut(Option<FeedItem>, &FeedStatus, &mut Console) -> anyhow::Result<ControlFlow<()>>,
 ) -> anyhow::Result<FeedStatus> {
     let interrupt = Interrupt::listen()?;
-    let feed = Feed::start(spec.clone(), BackpressurePolicy::for_source(spec), || ()).advised()?;
     let mut lost: Option<String> = None;
     while console.is_writable() && !interrupt.came() {
         // Read before waiting, so that items queued before the end are still taken.

@@ -11,13 +11,13 @@ use std::{
 
 use clap::Args;
 
-use self::session::InspectSession;
+use self::session::{InspectSession, KeptInspection};
 use super::{
     LibraryChoice, Outcome,
     calibrate::{CalibrationChoice, LineChoice, no_calibration},
     console::{Advised as _, Console},
     expect::ExpectChoice,
-    follow::{follow, parse_source},
+    follow::{follow_started, parse_source, start_source},
     input::{EmptyCellChoice, ImportChoice, Scenes, open_ahead, scene_of},
     output::{Columns, OutputFormat},
     plant::{ChosenPublisher, PublishArgs},
@@ -31,8 +31,8 @@ use capture::{Captured, FeedItem, FeedStatus, SourceSpec};
 use inspection::pipeline::MirrorTally;
 use records::report::ReportFolder;
 use station::{
-    CameraScenes, Following, LineTracker, NewFrame, PartFollower, SceneToInspect, Station,
-    StationSetup, Subject,
+    CameraScenes, Following, LineTracker, MotionWatch, NewFrame, PartFollower, SceneToInspect,
+    Station, StationSetup, Subject,
 };
 
 /// Recognise the part in captured scenes and say where it is
@@ -247,7 +247,13 @@ fn inspect_source(
 ) -> anyhow::Result<Outcome> {
     let mut outcome = Outcome::Accepted;
     let mut num_inspected = 0;
-    let followed = follow(source, console, |item, status, console| {
+    let feed = start_source(source)?;
+    let needs_motion = inspector.station.needs_motion();
+    let watch = needs_motion.then(|| MotionWatch::of_source(source, &feed));
+    let watch = watch.transpose().advised()?.flatten();
+    let watch = watch.as_ref();
+    let mut is_slow = false;
+    let followed = follow_started(source, &feed, console, |item, status, console| {
         let is_enough = frames.is_some_and(|frames| num_inspected >= frames);
         if let Some(publisher) = &mut inspector.publisher {
             publisher.look(&status.state, console);
@@ -260,7 +266,8 @@ fn inspect_source(
         let one = match item {
             None => return Ok(ControlFlow::Continue(())),
             Some(FeedItem::Captured(captured)) if is_enough => {
-                let scene = to_inspect(captured, source, status, &mut inspector.scenes, console);
+                let scenes = &mut inspector.scenes;
+                let scene = to_inspect(captured, watch, source, status, scenes, console);
                 inspector.check(scene, console)?
             }
             Some(FeedItem::Skipped(_)) if is_enough => Outcome::Accepted,
@@ -275,12 +282,14 @@ fn inspect_source(
                 num_inspected += 1;
                 let path = Path::new(&captured.name).to_owned();
                 inspector.frame(&path, console, |one, console| {
-                    let scene = to_inspect(captured, source, status, &mut one.scenes, console);
+                    let scenes = &mut one.scenes;
+                    let scene = to_inspect(captured, watch, source, status, scenes, console);
                     one.next(scene, console)
                 })?
             }
         };
         outcome = outcome.max(one);
+        is_slow = warn_if_slow(&inspector.station, is_slow, console);
         Ok(match frames {
             Some(frames) if num_inspected >= frames && !inspector.station.is_waiting() => {
                 ControlFlow::Break(())
@@ -314,9 +323,21 @@ fn inspect_source(
     })
 }
 
+/// Warns once verdicts wait because the computer inspects too few frames; `is_known` says whether that was so before. Returns
+/// whether it is.
+fn warn_if_slow(station: &Station<KeptInspection>, is_known: bool, console: &Console) -> bool {
+    let pace = station.held_up_by();
+    if let Some(pace) = pace.filter(|_| !is_known) {
+        let why = pace.refusal(String::new());
+        console.warn(&why, &why);
+    }
+    pace.is_some()
+}
+
 /// The scene of a capture from a source.
 fn to_inspect(
     captured: Captured,
+    watch: Option<&MotionWatch>,
     source: &SourceSpec,
     status: &FeedStatus,
     scenes: &mut CameraScenes,
@@ -326,6 +347,7 @@ fn to_inspect(
         path: Path::new(&captured.name).to_owned(),
         subject: Subject::of_capture(&captured, source, status.num_dropped),
         captured_at: Some(NewFrame::of_source(source).captured_at(&captured)),
+        watched: watch.map(|watch| watch.motion_of(&captured)),
         scene: scene_of(captured, scenes, console),
     }
 }

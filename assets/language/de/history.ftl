@@ -130,6 +130,11 @@ history-no-part-left-out =
         [one] 1 Eintrag ohne Teil ist nicht mitgezählt
        *[other] { $count } Einträge ohne Teil sind nicht mitgezählt
     }
+history-not-judged-left-out =
+    { $count ->
+        [one] 1 Teil wurde nicht beurteilt und ist nicht mitgezählt: zu wenige seiner Bilder wurden geprüft
+       *[other] { $count } Teile wurden nicht beurteilt und sind nicht mitgezählt: zu wenige ihrer Bilder wurden geprüft
+    }
 history-drift = Verlauf der Messwerte: { $part }
 history-drift-needs = Der Verlauf der Messwerte wird für ein Teil gezeigt, das mindestens { $count }-mal akzeptiert wurde
 history-drift-fit = Abweichung von der Referenz, rms

@@ -56,6 +56,7 @@ operator-num-parts = { $num ->
     }
 operator-num-ok = { $num } IO
 operator-num-not-ok = { $num } NIO
+operator-num-not-judged = { $num } nicht beurteilt
 operator-stop-live-says = Automatische Prüfung beenden (L)
 operator-live-says = Jedes Teil automatisch prüfen, sobald es still hängt (L)
 operator-wrong-part = Falsches Teil?

@@ -130,6 +130,11 @@ history-no-part-left-out =
         [one] 1 entry without a part is not counted
        *[other] { $count } entries without a part are not counted
     }
+history-not-judged-left-out =
+    { $count ->
+        [one] 1 part was not judged and is not counted: too few of its frames were inspected
+       *[other] { $count } parts were not judged and are not counted: too few of their frames were inspected
+    }
 history-drift = Drift: { $part }
 history-drift-needs = Drift is shown for a part that was accepted at least { $count } times
 history-drift-fit = Fit to the reference, rms

@@ -56,6 +56,7 @@ operator-num-parts = { $num ->
     }
 operator-num-ok = { $num } OK
 operator-num-not-ok = { $num } NOK
+operator-num-not-judged = { $num } not judged
 operator-stop-live-says = Stop inspecting every part automatically (L)
 operator-live-says = Inspect every part automatically once it hangs still (L)
 operator-wrong-part = Wrong part?

@@ -130,6 +130,11 @@ history-no-part-left-out =
         [one] 1 entrada sin pieza no cuenta
        *[other] { $count } entradas sin pieza no cuentan
     }
+history-not-judged-left-out =
+    { $count ->
+        [one] 1 pieza no se ha evaluado y no cuenta: se han inspeccionado muy pocas de sus imágenes
+       *[other] { $count } piezas no se han evaluado y no cuentan: se han inspeccionado muy pocas de sus imágenes
+    }
 history-drift = Deriva: { $part }
 history-drift-needs = La deriva se muestra de una pieza aceptada al menos { $count } veces
 history-drift-fit = Ajuste a la referencia, rms

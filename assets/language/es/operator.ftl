@@ -56,6 +56,7 @@ operator-num-parts = { $num ->
     }
 operator-num-ok = { $num } OK
 operator-num-not-ok = { $num } NOK
+operator-num-not-judged = { $num } sin evaluar
 operator-stop-live-says = Detener la inspección automática de las piezas (L)
 operator-live-says = Inspeccionar cada pieza automáticamente cuando cuelgue inmóvil (L)
 operator-wrong-part = ¿Pieza errónea?

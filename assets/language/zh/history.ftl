@@ -117,6 +117,7 @@ history-total = { $count } 个零件，{ $share } OK
 history-total-of-shifts = { $shifts } 个班次：{ $count } 个零件，{ $share } OK
 history-others-left-out = 未计入其他来源的 { $count } 个零件
 history-no-part-left-out = 未计入 { $count } 条无零件的记录
+history-not-judged-left-out = { $count } 个零件未判定，未计入：检测的帧过少
 history-drift = 漂移：{ $part }
 history-drift-needs = 零件至少被接受 { $count } 次后才显示漂移
 history-drift-fit = 与参考的偏差（rms）

@@ -53,6 +53,7 @@ operator-shift-says = 本班次开始以来挂在此来源前的零件，每件�
 operator-num-parts = { $num } 件
 operator-num-ok = { $num } OK
 operator-num-not-ok = { $num } NG
+operator-num-not-judged = { $num } 未判定
 operator-stop-live-says = 停止自动检测每个零件 (L)
 operator-live-says = 零件静止后自动检测 (L)
 operator-wrong-part = 零件不对？

@@ -213,7 +213,7 @@ fn rejections_of_others(part: &str) -> [Rejection; 7] {
 }
 
 /// Those that several frames give.
-fn rejections_of_frames(part: &str) -> [Rejection; 6] {
+fn rejections_of_frames(part: &str) -> [Rejection; 7] {
     let [num_agreeing, num_frames, needed] = [2, 5, 4];
     [
         Rejection::NotSteady { part: part.into() },
@@ -231,6 +231,11 @@ fn rejections_of_frames(part: &str) -> [Rejection; 6] {
             part: part.into(),
             num_frames,
             needed,
+        },
+        Rejection::TooSlow {
+            part: part.into(),
+            num_inspected: num_agreeing,
+            num_frames: 30,
         },
         Rejection::Undecided {
             part: part.into(),

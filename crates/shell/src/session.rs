@@ -481,8 +481,10 @@ pub struct ShiftParts {
     pub source: Option<Source>,
     /// Accepted parts, except those that were reported as wrong.
     pub num_ok: usize,
-    /// All other parts.
+    /// All other parts that were judged.
     pub num_not_ok: usize,
+    /// Parts that left before enough of their frames were inspected.
+    pub num_not_judged: usize,
     /// The last parts, accepted or not, newest first.
     pub last: Vec<Summary>,
     /// True labels of the latest parts that have one; known in both views.
@@ -508,7 +510,7 @@ impl ShiftParts {
 }
 
 /// Returns the mark of a verdict that is not about what hangs there now: green only without doubts. `is_ok` is `None` where
-/// no part was found, because an empty cell is not a bad part.
+/// no part was found or none was judged, because an empty cell is not a bad part.
 pub fn verdict_mark(is_ok: Option<bool>, has_doubts: bool) -> Mark {
     match is_ok {
         None => Mark::Open,
@@ -520,7 +522,8 @@ pub fn verdict_mark(is_ok: Option<bool>, has_doubts: bool) -> Mark {
 
 /// Returns the mark of an inspection in the history.
 pub fn past_mark(past: &Summary) -> Mark {
-    let is_ok = (past.verdict != StoredVerdict::NoPart).then(|| past.is_ok());
+    let is_verdict = past.verdict != StoredVerdict::NoPart && past.is_judged();
+    let is_ok = is_verdict.then(|| past.is_ok());
     verdict_mark(is_ok, !past.noted.robot_doubts.is_empty())
 }
 

@@ -9,7 +9,7 @@ use jiff::{Timestamp, Zoned};
 
 use crate::session::{Session, ShiftParts, Source, UserRole};
 use geometry::error::lock;
-use records::history::{Filter, HistoryBuffer, HistoryError, HungId, StoredVerdict};
+use records::history::{Filter, HistoryBuffer, HistoryError, HungId, PartOutcome, StoredVerdict};
 use ui::{
     language::text,
     task::{Task, TaskRunner},
@@ -161,6 +161,8 @@ fn count(
     };
     let mut outcomes = history.outcomes(&all)?;
     outcomes.retain(|part| part.verdict != StoredVerdict::NoPart);
+    let num_parts = outcomes.len();
+    outcomes.retain(PartOutcome::is_judged);
     let num_ok = outcomes.iter().filter(|part| part.is_ok).count();
     let mut last = Vec::new();
     for verdict in StoredVerdict::ALL {
@@ -178,6 +180,7 @@ fn count(
         since: Some(since),
         num_ok,
         num_not_ok: outcomes.len() - num_ok,
+        num_not_judged: num_parts - outcomes.len(),
         last,
         ..none
     })
@@ -190,12 +193,13 @@ mod tests {
     use super::*;
     use crate::{
         inspection::{inspected::inspected_cell, source::CellChoice},
-        session::Shown,
+        session::{Shown, past_mark},
         state::State,
     };
     use capture::fixtures::moment;
-    use inspection::library::Truth;
+    use inspection::{library::Truth, pipeline::RefusalKind};
     use records::fixtures::history_entry;
+    use ui::widgets::Mark;
 
     #[test]
     fn a_part_that_was_reported_as_wrong_is_not_ok_and_both_views_know_it() {
@@ -264,6 +268,32 @@ mod tests {
         let kinect = Source::Camera(Box::new("kinect".parse().expect("a source")));
         let sources = [Some(kinect), Some(Source::default()), None];
         assert_eq!(sources.map(counted), [2, 0, 0]);
+    }
+
+    #[test]
+    fn a_part_that_a_slow_computer_did_not_judge_is_neither_ok_nor_not_ok() {
+        let history = HistoryBuffer::new(None);
+        for (seconds, reason) in (1..).zip(["low_score", "too_slow", "few_frames"]) {
+            let mut entry = history_entry(seconds, StoredVerdict::Rejected, "fender");
+            entry.record.summary.source = "kinect".into();
+            entry.record.summary.reason = Some(RefusalKind::named(reason));
+            history.add(seconds as u64, entry, Instant::now());
+        }
+        let none = ShiftParts {
+            source: Some(Source::Camera(Box::new(
+                "kinect".parse().expect("a source"),
+            ))),
+            ..ShiftParts::default()
+        };
+        let since = moment(0).to_zoned(jiff::tz::TimeZone::UTC);
+        let shift = count(&history, since, none).expect("counted");
+        let counts = [shift.num_ok, shift.num_not_ok, shift.num_not_judged];
+        assert_eq!(counts, [0, 1, 2]);
+        let marks = shift.last.iter().map(past_mark);
+        assert_eq!(
+            marks.collect::<Vec<_>>(),
+            [Mark::Open, Mark::Open, Mark::Bad]
+        );
     }
 
     #[test]

@@ -9,8 +9,8 @@ use nalgebra::Point3;
 use inspection::pipeline::{
     Inspection, Recipe, Verdict,
     live::{
-        FrameRole, HungFrame, LiveParams, LiveTracker, LiveVerdict, MotionState, SteadyParams,
-        nothing_there, refuse_moving, refuse_unless_again,
+        FrameRole, HungFrame, LiveParams, LiveTracker, LiveVerdict, MotionState, Pace, SceneMotion,
+        SteadyParams, nothing_there, refuse_moving, refuse_unless_again,
     },
 };
 use records::history::{HungId, HungSpots, NewEntry};
@@ -21,6 +21,8 @@ pub struct PartFollower<E = NewEntry> {
     tracker: LiveTracker,
     spots: HungSpots<E>,
     at: Duration,
+    /// Number of the last frame.
+    number: u64,
     /// The verdicts of the last frame by itself.
     own: Vec<Verdict>,
     /// The entries held for parts that may leave before their verdicts count.
@@ -34,6 +36,8 @@ pub struct SeenFrame<'a> {
     pub scene: &'a SceneCloud,
     /// The camera's time, from any origin.
     pub at: Duration,
+    /// Its number, counted by the source.
+    pub number: u64,
     /// Identifies the recipe and the library.
     pub inputs: &'a str,
 }
@@ -61,6 +65,23 @@ impl SeenPart {
             spot: None,
             verdict: LiveVerdict::Open,
             role: FrameRole::Nothing,
+        }
+    }
+
+    /// True if it is a part whose verdict does not count yet.
+    fn is_waiting(&self) -> bool {
+        let shows_part = matches!(self.inspection.verdict, Verdict::Part { .. });
+        shows_part && self.spot.is_some() && self.verdict.counted().is_none()
+    }
+
+    /// Of a part of which too few frames were inspected, says that the computer is too slow: what single frames say is no verdict,
+    /// good or bad.
+    fn refuse_at_pace(&mut self, pace: Pace) {
+        if !self.is_waiting() || self.inspection.verdict.is_unknown() {
+            return;
+        }
+        if let Verdict::Part { part, rejected, .. } = &mut self.inspection.verdict {
+            *rejected = Some(pace.refusal(part.clone()));
         }
     }
 }
@@ -107,6 +128,15 @@ impl<'a> SeenFrame<'a> {
             part.verdict = tracker.judge(spot, &mut part.inspection, part.middle, &recipe.accept);
             part.role = spots.role_of(spot, &self.of(part));
         }
+        // What moves is not held up by the computer.
+        let is_moving = tracker.stillness() == MotionState::Moving;
+        let waits = !is_moving && parts.iter().any(SeenPart::is_waiting);
+        tracker.judged(self.number, waits);
+        if let Some(pace) = tracker.slow().filter(|_| !is_moving) {
+            for part in &mut parts {
+                part.refuse_at_pace(pace);
+            }
+        }
         (parts, absent)
     }
 }
@@ -124,6 +154,7 @@ impl<E> Default for PartFollower<E> {
             tracker: LiveTracker::new(&LiveParams::default()),
             spots: HungSpots::default(),
             at: Duration::ZERO,
+            number: 0,
             own: Vec::new(),
             held: Vec::new(),
         }
@@ -131,11 +162,24 @@ impl<E> Default for PartFollower<E> {
 }
 
 impl<E> PartFollower<E> {
-    /// Takes in a frame, and returns the scene to inspect. Call it for every frame.
-    pub fn look(&mut self, scene: Arc<SceneCloud>, taken_at: Timestamp) -> Arc<SceneCloud> {
+    /// Takes in a frame, and returns the scene to inspect. `number` is counted by the source. `watched` is what a
+    /// [`MotionWatch`](super::MotionWatch) knows after it; without one, call this for every frame.
+    pub fn look(
+        &mut self,
+        scene: Arc<SceneCloud>,
+        taken_at: Timestamp,
+        number: u64,
+        watched: Option<SceneMotion>,
+    ) -> Arc<SceneCloud> {
         self.at = Duration::try_from(taken_at.as_duration()).unwrap_or_default();
+        self.number = number;
         self.own.clear();
-        self.tracker.look(scene, self.at)
+        self.tracker.look(scene, self.at, watched)
+    }
+
+    /// The pace, if a verdict has waited two seconds or longer because fewer than half of the camera's frames are inspected.
+    pub fn held_up_by(&self) -> Option<Pace> {
+        self.tracker.held_up_by()
     }
 
     /// Refuses the parts of the frame's own inspection, in the order of [`run_all`](inspection::pipeline::run_all), if they move.
@@ -197,6 +241,7 @@ impl<E> PartFollower<E> {
         let frame = SeenFrame {
             scene,
             at: self.at,
+            number: self.number,
             // Recipe and library do not change between frames.
             inputs: "",
         };
@@ -219,12 +264,17 @@ impl<E> PartFollower<E> {
             match (role, index) {
                 (FrameRole::Nothing, _) | (FrameRole::Best, None) => {}
                 (FrameRole::Best, Some(index)) => {
-                    part.inspection.verdict.clone_from(&own[index]);
-                    self.refuse(&mut part.inspection);
-                    self.spots.at(spot).hold(entry(&part.inspection, id, false));
                     self.held.retain(|held| held.spot != spot);
-                    let shows = (self.at, index);
-                    self.held.push(HeldFrame { spot, shows });
+                    // Of a part that hangs still, too few frames were inspected so far, and its verdict says so.
+                    let is_still = matches!(part.verdict, LiveVerdict::Gathering { .. });
+                    if !is_still {
+                        part.inspection.verdict.clone_from(&own[index]);
+                        self.refuse(&mut part.inspection);
+                        let shows = (self.at, index);
+                        self.held.push(HeldFrame { spot, shows });
+                    }
+                    let entry = entry(&part.inspection, id, is_still);
+                    self.spots.at(spot).hold(entry);
                 }
                 (FrameRole::First | FrameRole::Again, _) => {
                     recorded.push(entry(&part.inspection, id, true));
@@ -253,7 +303,7 @@ impl<E> PartFollower<E> {
 
 #[cfg(test)]
 mod tests {
-    use std::slice;
+    use std::{f64::consts::TAU, slice};
 
     use jiff::SignedDuration;
 
@@ -262,10 +312,12 @@ mod tests {
     use geometry::rigid::RigidTransform;
     use inspection::{
         fixtures::shipped_library,
-        pipeline::{Unwatched, run, run_all},
+        pipeline::{Rejection, Unwatched, live::MotionDetector, run, run_all},
     };
-    use simulate::{RackKind, RackSetup, SensorNoise, StandingRack};
-    use stages::scene::scene_from_image;
+    use simulate::{
+        PartKind, RackKind, RackSetup, SensorNoise, StandingRack, fixtures::HangingPart,
+    };
+    use stages::scene::{scene_from_frame, scene_from_image};
 
     #[test]
     fn a_frame_of_a_part_that_swings_in_is_refused_and_one_of_a_part_at_rest_is_not() {
@@ -285,7 +337,7 @@ mod tests {
             let scene = scene_at(number);
             let seconds = (number - 1) as f64 / 15.0;
             let taken_at = Timestamp::UNIX_EPOCH + SignedDuration::from_secs_f64(seconds);
-            let scene = followed.look(scene, taken_at);
+            let scene = followed.look(scene, taken_at, number, None);
             // As if every frame by itself were accepted.
             let mut inspection = seen.clone();
             followed.refuse_if_moving(slice::from_mut(&mut inspection));
@@ -311,7 +363,7 @@ mod tests {
     #[test]
     fn a_part_that_leaves_before_its_verdict_counts_is_recorded_with_the_verdict_of_its_frame() {
         let mut cell = SimulatedCell::new(SimulatedSpec {
-            scene: CellScene::Part(simulate::PartKind::Fender),
+            scene: CellScene::Part(PartKind::Fender),
             frames_per_second: 10.0,
             ..SimulatedSpec::default()
         });
@@ -325,7 +377,7 @@ mod tests {
             let scene = Arc::new(scene_from_image(cell.frame(number).0));
             let seconds = number as f64 / 10.0;
             let taken_at = Timestamp::UNIX_EPOCH + SignedDuration::from_secs_f64(seconds);
-            let scene = followed.look(scene, taken_at);
+            let scene = followed.look(scene, taken_at, number, None);
             let mut inspection = run(&scene, &library, &recipe, &Unwatched).expect("run");
             followed.refuse_if_moving(slice::from_mut(&mut inspection));
             assert!(inspection.verdict.is_accepted());
@@ -349,25 +401,39 @@ mod tests {
         max_parts: usize,
         step: u64,
         num: u64,
+        frame: impl FnMut(u64) -> Arc<SceneCloud>,
+    ) -> Vec<Row> {
+        rows_at(10.0, max_parts, step, num, frame)
+    }
+
+    /// The same at this many frames a second. All are watched for motion.
+    fn rows_at(
+        rate: f64,
+        max_parts: usize,
+        step: u64,
+        num: u64,
         mut frame: impl FnMut(u64) -> Arc<SceneCloud>,
     ) -> Vec<Row> {
         let (library, mut recipe) = (shipped_library(), Recipe::default());
         recipe.segment.max_parts = max_parts;
         let mut followed = PartFollower::default();
+        let mut detector = MotionDetector::new(SteadyParams::default());
         let mut rows = Vec::new();
         for number in 0..num {
-            let seconds = number as f64 / 10.0;
-            let taken_at = Timestamp::UNIX_EPOCH + SignedDuration::from_secs_f64(seconds);
-            let scene = followed.look(frame(number), taken_at);
+            let seconds = number as f64 / rate;
+            let scene = frame(number);
+            detector.see(&scene, Duration::from_secs_f64(seconds));
             if number % step != 0 {
                 continue;
             }
+            let taken_at = Timestamp::UNIX_EPOCH + SignedDuration::from_secs_f64(seconds);
+            let scene = followed.look(scene, taken_at, number, Some(detector.motion()));
             let mut found = run_all(&scene, &library, &recipe, &Unwatched).expect("run");
             followed.refuse_if_moving(&mut found);
-            let entry = |inspection: &Inspection, hung, _| {
+            let entry = |inspection: &Inspection, hung, is_still| {
                 let verdict = &inspection.verdict;
                 let name = verdict.guess().unwrap_or_default().to_owned();
-                (seconds, name, verdict.is_accepted(), hung)
+                (seconds, name, is_still && verdict.is_accepted(), hung)
             };
             let middle = |one: &Inspection| one.middle(&library);
             rows.extend(followed.take(&scene, found, middle, &recipe, entry));
@@ -402,6 +468,87 @@ mod tests {
         });
         let frames: Vec<_> = (1..=num).map(|number| cell.frame(number).0).collect();
         move |number| Arc::new(scene_from_image(frames[number as usize].clone()))
+    }
+
+    /// Frames at 30 a second of a part that is moved by this after a time in seconds.
+    fn hanging(
+        (kind, seed): (PartKind, u64),
+        moved: impl Fn(f64) -> RigidTransform,
+    ) -> impl FnMut(u64) -> Arc<SceneCloud> {
+        let part = HangingPart::new(kind, seed);
+        move |number| {
+            let moved = moved(number as f64 / 30.0);
+            let frame = part.frame(SensorNoise::kinect(number), &moved);
+            Arc::new(scene_from_frame(&frame))
+        }
+    }
+
+    fn at_rest(_: f64) -> RigidTransform {
+        RigidTransform::identity()
+    }
+
+    #[test]
+    fn of_two_in_thirty_frames_a_part_at_rest_counts_once_and_one_that_swings_never() {
+        let rows = rows_at(30.0, 1, 15, 90, hanging((PartKind::Fender, 3), at_rest));
+        let [(seconds, name, true, _)] = &rows[..] else {
+            panic!("{rows:?}");
+        };
+        assert!(*seconds <= 1.5 && name == "fender", "{rows:?}");
+        let swings = |t: f64| RigidTransform::translation(0.004 * (TAU * t / 1.6).sin(), 0.0, 0.0);
+        let rows = rows_at(30.0, 1, 15, 90, hanging((PartKind::FrontDoor, 5), swings));
+        assert!(rows.iter().all(|(_, _, is_ok, _)| !is_ok), "{rows:?}");
+        // Without a look at the frames in between, they are too few to tell for 7 s.
+        let mut frame = hanging((PartKind::Fender, 3), at_rest);
+        let rows = rows_at(2.0, 1, 1, 13, |number| frame(15 * number));
+        assert!(rows.iter().all(|(_, _, is_ok, _)| !is_ok), "{rows:?}");
+    }
+
+    #[test]
+    fn of_two_frames_a_second_two_parts_one_after_the_other_are_two() {
+        let rows = rows_of(1, 5, 116, line(CellScene::Line { every: 6.0 }));
+        let [first, second] = [accepted(&rows, 0.0..6.0), accepted(&rows, 6.0..12.0)];
+        assert_eq!((first.len(), second.len()), (1, 1), "{rows:?}");
+        assert_ne!(first, second);
+    }
+
+    #[test]
+    fn a_part_that_leaves_before_enough_of_its_frames_were_inspected_is_not_judged() {
+        // It is there from 0.2 to 2 s.
+        let away = RigidTransform::translation(9.0, 0.0, 0.0);
+        let mut frame = hanging((PartKind::Fender, 3), |seconds| {
+            if (0.2..2.0).contains(&seconds) {
+                RigidTransform::identity()
+            } else {
+                away
+            }
+        });
+        let (library, recipe) = (shipped_library(), Recipe::default());
+        let mut followed = PartFollower::default();
+        let mut detector = MotionDetector::new(SteadyParams::default());
+        let mut recorded = Vec::new();
+        for number in 0..=150 {
+            let scene = frame(number);
+            let at = Duration::from_secs(number) / 30;
+            detector.see(&scene, at);
+            if number % 50 != 0 {
+                continue;
+            }
+            let since = SignedDuration::try_from(at).expect("in range");
+            let taken_at = Timestamp::UNIX_EPOCH + since;
+            let scene = followed.look(scene, taken_at, number, Some(detector.motion()));
+            let mut found = run_all(&scene, &library, &recipe, &Unwatched).expect("run");
+            followed.refuse_if_moving(&mut found);
+            let entry = |inspection: &Inspection, _, is_still| {
+                (inspection.verdict.rejected().cloned(), is_still)
+            };
+            recorded.extend(followed.take(&scene, found, |_| None, &recipe, entry));
+        }
+        let too_slow = Rejection::TooSlow {
+            part: "fender".into(),
+            num_inspected: 1,
+            num_frames: 50,
+        };
+        assert_eq!(recorded, [(Some(too_slow), true)]);
     }
 
     #[test]

@@ -35,6 +35,7 @@ pub use self::{
     follow::{PartFollower, SeenFrame, SeenPart},
     inspected::{CaptureFacts, Inspected, LibraryNames, ScanFacts, Subject},
     line::{CountLog, Followed, FollowedFrame, LineFollower, LinePose, LineTracker, Moment},
+    motion::MotionWatch,
     recorder::{Losses, Recorder},
     scenes::CameraScenes,
     station::{Following, InspectedScene, SceneToInspect, Settled, Station, StationSetup},

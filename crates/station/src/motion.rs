@@ -1,24 +1,28 @@
-//! Whether anything moves before a running source, watched between the triggers too.
+//! Whether anything moves before a running source, watched between the inspected frames too.
 //!
 //! A trigger is answered from one frame, and one frame does not show whether the part swings. A thread of its own
-//! therefore passes every frame to a [`MotionDetector`], as Live does: at a trigger it is known whether the scene was
+//! therefore passes every frame to a [`MotionDetector`]: at a trigger it is known whether the scene was
 //! still until then, and nobody waits for it. What begins to move just then shows only afterwards, so
 //! [`Camera::refuse_if_moving`](super::Camera::refuse_if_moving) compares the trigger's frame with a later one.
+//!
+//! Who follows a camera inspects only some of its frames, on a slow computer two of thirty. For an inspected frame,
+//! [`MotionWatch::motion_of`] gives what was known after it, by the frames in between too.
 
 use std::{
+    collections::VecDeque,
     sync::{
-        Arc, Condvar, Mutex, PoisonError,
+        Arc, Condvar, Mutex, MutexGuard, PoisonError,
         atomic::{AtomicBool, Ordering},
     },
     thread::{self, JoinHandle},
-    time::{Duration, SystemTime},
+    time::{Duration, Instant, SystemTime},
 };
 
 use jiff::Timestamp;
 
-use capture::{CaptureError, Captured, Feed, FeedItem};
+use capture::{BackpressurePolicy, CaptureError, Captured, Feed, FeedItem, SourceSpec};
 use geometry::{clock, error::lock};
-use inspection::pipeline::live::{MotionDetector, MotionState, SteadyParams};
+use inspection::pipeline::live::{MotionDetector, MotionState, SceneMotion, SteadyParams};
 use stages::scene::scene_from_image;
 
 /// How long the thread waits for a frame before it checks whether to end.
@@ -27,10 +31,14 @@ const POLL_INTERVAL: Duration = Duration::from_millis(100);
 const MIN_FRAME_INTERVAL: Duration = Duration::from_millis(25);
 /// Maximum time until the thread has seen a frame that has arrived: usually milliseconds, but more on a busy computer.
 const MAX_LAG: Duration = Duration::from_secs(3);
+/// Frames whose state is remembered: more than arrive while one waits to be inspected.
+const MAX_REMEMBERED: usize = 128;
 
 /// Watches a source until it is dropped.
-pub(super) struct MotionWatch {
+pub struct MotionWatch {
     seen: Arc<Seen>,
+    /// It sees what arrives from then on.
+    began: Instant,
     is_ending: Arc<AtomicBool>,
     thread: Option<JoinHandle<()>>,
 }
@@ -41,12 +49,45 @@ struct Seen {
     changed: Condvar,
 }
 
-#[derive(Clone, Copy, Default)]
+#[derive(Default)]
 struct LastSeen {
-    /// Time of the last frame.
-    at: Option<Duration>,
-    state: MotionState,
+    frames: SeenFrames,
     is_over: bool,
+}
+
+/// What was known after each of the last frames, by their own times.
+#[derive(Debug, Default)]
+struct SeenFrames(VecDeque<(Duration, SceneMotion)>);
+
+impl SeenFrames {
+    fn add(&mut self, at: Duration, motion: SceneMotion) {
+        if self.at().is_some_and(|last| at < last) {
+            // A clock was set back.
+            self.0.clear();
+        }
+        if self.0.len() == MAX_REMEMBERED {
+            self.0.pop_front();
+        }
+        self.0.push_back((at, motion));
+    }
+
+    /// Time of the last frame.
+    fn at(&self) -> Option<Duration> {
+        self.0.back().map(|(at, _)| *at)
+    }
+
+    fn last(&self) -> SceneMotion {
+        self.0
+            .back()
+            .map_or_else(SceneMotion::default, |(_, motion)| *motion)
+    }
+
+    /// What was known after the frame of this time or, if that was passed over, after the next one; nothing, if there is none.
+    fn motion_at(&self, at: Duration) -> SceneMotion {
+        let mut frames = self.0.iter();
+        let seen = frames.find(|(seen, _)| *seen >= at);
+        seen.map_or_else(SceneMotion::default, |(_, motion)| *motion)
+    }
 }
 
 /// A frame's own time: the camera's or, of a recording, that of its camera.
@@ -65,16 +106,26 @@ pub(super) fn timestamp(at: Duration) -> Timestamp {
 }
 
 impl MotionWatch {
+    /// Watches the source of a feed of which frames are dropped while others are inspected; `None` where every frame is inspected,
+    /// or each stands for itself.
+    pub fn of_source(spec: &SourceSpec, feed: &Feed) -> Result<Option<Self>, CaptureError> {
+        let is_dropping = BackpressurePolicy::for_source(spec) == BackpressurePolicy::Newest;
+        let is_needed = is_dropping && spec.is_followed();
+        is_needed.then(|| Self::start(feed)).transpose()
+    }
+
     /// Watches the source of this feed, from which it takes nothing.
     pub(super) fn start(feed: &Feed) -> Result<Self, CaptureError> {
         let (seen, is_ending) = (Arc::<Seen>::default(), Arc::<AtomicBool>::default());
         let (theirs, ends, tap) = (Arc::clone(&seen), Arc::clone(&is_ending), feed.tap());
+        let began = Instant::now();
         let thread = thread::Builder::new()
             .name("motion".into())
             .spawn(move || theirs.follow(&tap, &ends))
             .map_err(|source| CaptureError::NoThread { source })?;
         Ok(Self {
             seen,
+            began,
             is_ending,
             thread: Some(thread),
         })
@@ -82,22 +133,34 @@ impl MotionWatch {
 
     /// Whether the scene moves, by the frames up to that of this time at least.
     pub(super) fn state_at(&self, at: Duration) -> MotionState {
-        let last = lock(&self.seen.last);
-        let is_behind = |last: &mut LastSeen| !last.is_over && last.at < Some(at);
-        let waited = self
-            .seen
-            .changed
-            .wait_timeout_while(last, MAX_LAG, is_behind);
-        let (last, _) = waited.unwrap_or_else(PoisonError::into_inner);
-        match last.state {
+        let last = self.seen.up_to(at);
+        match last.frames.last().state {
             // It cannot be told of a frame that was not seen.
-            MotionState::Steady { .. } if last.at < Some(at) => MotionState::Watching,
+            MotionState::Steady { .. } if last.frames.at() < Some(at) => MotionState::Watching,
             state => state,
         }
+    }
+
+    /// What was known of the scene after this frame, by all frames up to it; nothing if they were not seen in time.
+    pub fn motion_of(&self, captured: &Captured) -> SceneMotion {
+        let at = time_of(captured);
+        if captured.arrived < self.began {
+            return SceneMotion::default();
+        }
+        self.seen.up_to(at).frames.motion_at(at)
     }
 }
 
 impl Seen {
+    /// Waits until a frame of this time was seen.
+    fn up_to(&self, at: Duration) -> MutexGuard<'_, LastSeen> {
+        let last = lock(&self.last);
+        let is_behind = |last: &mut LastSeen| !last.is_over && last.frames.at() < Some(at);
+        let waited = self.changed.wait_timeout_while(last, MAX_LAG, is_behind);
+        let (last, _) = waited.unwrap_or_else(PoisonError::into_inner);
+        last
+    }
+
     fn follow(&self, feed: &Feed, is_ending: &AtomicBool) {
         let mut detector = MotionDetector::new(SteadyParams::default());
         let mut looked_at: Option<Duration> = None;
@@ -111,7 +174,7 @@ impl Seen {
                         detector.see(&scene_from_image(captured.image), at);
                     }
                     let mut last = lock(&self.last);
-                    (last.at, last.state) = (Some(at), detector.stillness());
+                    last.frames.add(at, detector.motion());
                     drop(last);
                     self.changed.notify_all();
                 }
@@ -131,5 +194,42 @@ impl Drop for MotionWatch {
             // If it panicked, triggers have relied on two frames alone.
             let _ = thread.join();
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_frame_has_the_state_after_it_and_one_passed_over_that_after_the_next() {
+        let seconds = Duration::from_secs_f64;
+        let known = |run, state| SceneMotion { state, run };
+        let mut frames = SeenFrames::default();
+        assert_eq!(frames.motion_at(seconds(0.0)), SceneMotion::default());
+        let since = seconds(1.0);
+        let still = known(
+            1,
+            MotionState::Steady {
+                since,
+                lasting: seconds(1.0),
+            },
+        );
+        let moving = known(2, MotionState::Moving);
+        frames.add(seconds(2.0), still);
+        frames.add(seconds(2.1), moving);
+        // What moves later does not change what was known at that time, and what moved between two frames counts.
+        assert_eq!(frames.motion_at(seconds(2.0)), still);
+        assert_eq!(frames.motion_at(seconds(2.05)), moving);
+        assert_eq!(frames.motion_at(seconds(2.2)), SceneMotion::default());
+        assert_eq!(frames.last(), moving);
+        // After a clock was set back, nothing from before is taken for a later frame.
+        frames.add(seconds(1.9), known(3, MotionState::Watching));
+        assert_eq!(frames.motion_at(seconds(1.8)).run, 3);
+        assert_eq!(frames.motion_at(seconds(2.0)), SceneMotion::default());
+        for number in 0..2 * MAX_REMEMBERED {
+            frames.add(seconds(3.0 + number as f64), still);
+        }
+        assert_eq!(frames.0.len(), MAX_REMEMBERED);
     }
 }

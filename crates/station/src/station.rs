@@ -11,7 +11,11 @@ use std::{
 use super::{Followed, Inspected, LineTracker, Moment, PartFollower, Subject};
 use inspection::{
     library::Library,
-    pipeline::{Inspection, NamedRecipe, Unwatched, live::refuse_moving, run_all},
+    pipeline::{
+        Inspection, NamedRecipe, Unwatched,
+        live::{Pace, SceneMotion, refuse_moving},
+        run_all,
+    },
 };
 use records::history::HungId;
 use robot::RobotFrame;
@@ -60,6 +64,8 @@ pub struct SceneToInspect {
     pub subject: Subject,
     /// When a source captured it.
     pub captured_at: Option<Instant>,
+    /// What a [`MotionWatch`](super::MotionWatch) knows after it, of a source of which not every frame is inspected.
+    pub watched: Option<SceneMotion>,
 }
 
 /// An inspected scene.
@@ -127,6 +133,19 @@ impl<E> Station<E> {
     /// True if scenes wait for a later one, which shows whether their parts hang still.
     pub fn is_waiting(&self) -> bool {
         !self.waiting.is_empty()
+    }
+
+    /// True if parts hang before the source, so that it matters whether anything moves between the inspected frames.
+    pub fn needs_motion(&self) -> bool {
+        matches!(self.following, Following::Hanging(_))
+    }
+
+    /// The pace, if a verdict has waited two seconds or longer because fewer than half of the camera's frames are inspected.
+    pub fn held_up_by(&self) -> Option<Pace> {
+        match &self.following {
+            Following::Hanging(follower) => follower.held_up_by(),
+            Following::Independent | Following::Line(_) => None,
+        }
     }
 
     /// The parts of a scene as they are recorded.
@@ -254,12 +273,13 @@ impl<E> Station<E> {
             scene,
             subject,
             captured_at,
+            watched,
         } = scene;
         let mut scene = Arc::new(scene);
         if let (Following::Hanging(follower), Some(capture)) =
             (&mut self.following, &subject.capture)
         {
-            scene = follower.look(scene, capture.taken_at);
+            scene = follower.look(scene, capture.taken_at, capture.number, watched);
         }
         let StationSetup {
             library, recipe, ..
@@ -380,6 +400,7 @@ mod tests {
                 path: (&captured.name).into(),
                 subject: Subject::of_capture(&captured, &source, 0),
                 captured_at: None,
+                watched: None,
                 scene: scenes.next(captured.image),
             }
         };

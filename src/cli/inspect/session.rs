@@ -80,6 +80,7 @@ impl InspectSession {
                     scene,
                     subject,
                     captured_at: None,
+                    watched: None,
                 };
                 self.frame(path, console, |one, console| one.next(scene, console))
             }
@@ -323,6 +324,7 @@ mod tests {
                 scene: SceneCloud::default(),
                 subject: Subject::of_scene("b.pcd".into(), "file".into(), false),
                 captured_at: None,
+                watched: None,
             };
             one.next(scene, console)
         });

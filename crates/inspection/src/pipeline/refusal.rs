@@ -36,6 +36,11 @@ impl RefusalKind {
         &self.0
     }
 
+    /// True if it says nothing about the part: too few of its frames were inspected.
+    pub fn is_unjudged(&self) -> bool {
+        matches!(self.name(), "few_frames" | "too_slow")
+    }
+
     /// Returns the message of a refusal of this kind, without figures.
     pub fn message(&self) -> Message {
         Message::new(format!("refusal-{}", self.0.replace('_', "-")))
@@ -129,6 +134,17 @@ mod tests {
         for kind in kinds {
             assert!(guide.contains(&format!("`{kind}`")), "{kind} in the guide");
         }
+    }
+
+    #[test]
+    fn a_part_of_which_too_few_frames_were_inspected_is_not_judged() {
+        let kinds = refusals().into_iter().map(|why| why.kind());
+        let unjudged: BTreeSet<String> = kinds
+            .filter(RefusalKind::is_unjudged)
+            .map(|kind| kind.to_string())
+            .collect();
+        let expected = ["few_frames", "too_slow"].map(str::to_owned);
+        assert_eq!(unjudged, BTreeSet::from(expected));
     }
 
     #[test]

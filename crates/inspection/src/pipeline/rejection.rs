@@ -276,6 +276,15 @@ pub enum Rejection {
         /// Frames needed.
         needed: usize,
     },
+    /// It is not judged: the computer inspects too few of the camera's frames.
+    TooSlow {
+        /// Best match.
+        part: String,
+        /// Frames inspected in about a second.
+        num_inspected: usize,
+        /// Frames that the camera delivered in that time.
+        num_frames: usize,
+    },
     /// Frames of a scene that does not move have different verdicts.
     Undecided {
         /// The part that most frames name.

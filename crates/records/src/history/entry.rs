@@ -86,6 +86,11 @@ pub(super) fn is_ok(verdict: StoredVerdict, part: Option<&str>, label: Option<&T
     verdict == StoredVerdict::Accepted && label.is_none_or(|label| label.part() == part)
 }
 
+/// Returns true if a part with this refusal, or none, is OK or not OK: too few frames are no verdict.
+pub(super) fn is_judged(reason: Option<&RefusalKind>) -> bool {
+    !reason.is_some_and(RefusalKind::is_unjudged)
+}
+
 /// An inspection as a row of a list.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Summary {
@@ -146,6 +151,11 @@ impl Summary {
     /// True if the part counts as OK.
     pub fn is_ok(&self) -> bool {
         is_ok(self.verdict, self.part.as_deref(), self.label.as_ref())
+    }
+
+    /// True unless it left before enough of its frames were inspected: then it is neither OK nor not OK.
+    pub fn is_judged(&self) -> bool {
+        is_judged(self.reason.as_ref())
     }
 
     /// True if it was accepted and its true label says that it is another part, or none.

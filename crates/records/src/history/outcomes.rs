@@ -6,7 +6,7 @@ use jiff::Timestamp;
 use rusqlite::{params_from_iter, types::Value};
 
 use super::{
-    entry::{Record, StoredVerdict, is_ok},
+    entry::{Record, StoredVerdict, is_judged, is_ok},
     error::HistoryError,
     filter::Filter,
     store::History,
@@ -28,6 +28,13 @@ pub struct PartOutcome {
     pub reason: Option<RefusalKind>,
     /// Name of the rack in which it hung, if it has one.
     pub rack: Option<String>,
+}
+
+impl PartOutcome {
+    /// True unless it left before enough of its frames were inspected, see [`Summary::is_judged`](super::Summary::is_judged).
+    pub fn is_judged(&self) -> bool {
+        is_judged(self.reason.as_ref())
+    }
 }
 
 impl From<&Record> for PartOutcome {

@@ -436,7 +436,11 @@ fn counts(ui: &mut Ui, shift: &ShiftParts) {
             text!("operator-num-not-ok", num = shift.num_not_ok),
         ),
     ];
-    for (sign, text) in chips {
+    let not_judged = (shift.num_not_judged > 0).then(|| {
+        let text = text!("operator-num-not-judged", num = shift.num_not_judged);
+        (Some(Mark::Open), text)
+    });
+    for (sign, text) in chips.into_iter().chain(not_judged) {
         let chip = Frame::new()
             .fill(theme.control)
             .stroke(theme.edge_stroke())

@@ -96,6 +96,8 @@ pub struct Statistics {
     pub num_left_out: usize,
     /// Number of rows without a part, which are not counted.
     pub num_no_part: usize,
+    /// Number of parts that left before enough of their frames were inspected, which are not counted.
+    pub num_not_judged: usize,
     /// Drift of the part that the filter names, or of the one accepted most often.
     pub drift: Option<Drift>,
 }
@@ -133,6 +135,10 @@ pub(super) fn count(
     for outcome in outcomes {
         if outcome.verdict == StoredVerdict::NoPart {
             found.num_no_part += 1;
+            continue;
+        }
+        if !outcome.is_judged() {
+            found.num_not_judged += 1;
             continue;
         }
         let is_in_last = end.as_ref().is_some_and(|end| outcome.at < end.timestamp());
@@ -215,6 +221,10 @@ pub(super) fn ui(ui: &mut Ui, view: &StatisticsView, units: UnitSystem) {
         if found.num_no_part > 0 {
             let count = found.num_no_part;
             ui.weak(text!("history-no-part-left-out", count = count));
+        }
+        if found.num_not_judged > 0 {
+            let count = found.num_not_judged;
+            ui.add(egui::Label::new(text!("history-not-judged-left-out", count = count)).wrap());
         }
         heading(ui, &text!("history-by-part"));
         by_part(ui, &found.parts);
@@ -530,6 +540,21 @@ mod tests {
         };
         assert_eq!(found.parts, [(Some("Door, left".into()), tally)]);
         assert_eq!(found.reasons, [(ReasonGroup::ReportedWrong, 1)]);
+    }
+
+    #[test]
+    fn a_part_of_which_too_few_frames_were_inspected_is_neither_ok_nor_not_ok() {
+        let refused = |kind: &str| {
+            let reason = Some(RefusalKind::named(kind));
+            outcome("06:00:00", StoredVerdict::Rejected, "door", reason)
+        };
+        let found = counted(&[refused("piece"), refused("too_slow"), refused("few_frames")]);
+        let tally = Tally {
+            num_ok: 0,
+            num_not_ok: 1,
+        };
+        assert_eq!(found.parts, [(Some("Door, left".into()), tally)]);
+        assert_eq!(found.num_not_judged, 2);
     }
 
     #[test]

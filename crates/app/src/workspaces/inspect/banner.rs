@@ -386,7 +386,7 @@ mod tests {
     use geometry::rigid::RigidTransform;
     use inspection::pipeline::{
         Rejection,
-        live::{LiveVerdict, MotionState},
+        live::{LiveVerdict, MotionState, Pace},
     };
     use robot::RobotFrame;
     use shell::{
@@ -597,6 +597,29 @@ mod tests {
     }
 
     #[test]
+    fn a_part_that_waits_for_a_slow_computer_is_not_nok_and_the_operator_knows_why() {
+        let mut inspected = inspected_cell(CellChoice::InTurn, 1);
+        inspected.followed = Some(LiveFrameContext {
+            stillness: MotionState::Watching,
+            standing: LiveVerdict::Open,
+        });
+        let mut session = showing(inspected, false);
+        session.live.is_on = true;
+        session.live.status = Some(LiveStatus {
+            stillness: Some(MotionState::Watching),
+            held_up_by: Some(Pace {
+                num_inspected: 2,
+                num_frames: 30,
+            }),
+            ..status(SourceState::Running)
+        });
+        let banner = Banner::of(&session);
+        assert_eq!(banner.tone, Tone::Open);
+        assert!(banner.reason.contains("2 of 30 frames"), "{banner:?}");
+        assert!(banner.next.contains("close other programs"), "{banner:?}");
+    }
+
+    #[test]
     fn a_lost_source_is_named_by_its_kind_in_the_language_of_the_window() {
         let lost = |source| {
             let mut session = Session {
@@ -633,6 +656,7 @@ mod tests {
             standing: LiveVerdict::Open,
             rates: [None; 2],
             latency: None,
+            held_up_by: None,
             num_inspected: 1,
             num_dropped: 0,
             num_averaged: 1,

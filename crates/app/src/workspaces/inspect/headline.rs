@@ -102,7 +102,18 @@ impl Headline {
                     Some(MotionState::Steady { .. }) | None => followed.stillness,
                     Some(now) => now,
                 };
-                return Self::not_yet(inspected, stillness, is_moving);
+                let headline = Self::not_yet(inspected, stillness, is_moving);
+                let pace = session.live.status.as_ref().filter(|_| is_moving);
+                let Some(pace) = pace.and_then(|status| status.held_up_by) else {
+                    return headline;
+                };
+                let part = headline.nearest.clone().unwrap_or_default();
+                let why = pace.refusal(part);
+                return Self {
+                    title: text!("inspect-looking"),
+                    complaint: Some((described(&why), advised(&why))),
+                    ..headline
+                };
             }
         }
         let verdict = &inspected.inspection.verdict;
@@ -239,14 +250,23 @@ fn fitting_font(ui: &Ui, name: &str, fonts: &[FontId], max_lines: usize) -> Font
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
     use super::*;
     use inspection::{
         library::Truth,
-        pipeline::{Rejection, live::LiveVerdict},
+        pipeline::{
+            Rejection,
+            live::{LiveVerdict, Pace},
+        },
     };
-    use shell::inspection::{
-        inspected::{LiveFrameContext, inspected_cell},
-        source::CellChoice,
+    use shell::{
+        inspection::{
+            inspected::{LiveFrameContext, inspected_cell},
+            source::CellChoice,
+        },
+        session::Shown,
+        source::live::{LiveStatus, SourceState},
     };
 
     #[test]
@@ -298,6 +318,50 @@ mod tests {
         };
         let headline = Headline::of(&found, &session);
         assert_eq!(headline.nearest.as_deref(), Some("Front door, left"));
+    }
+
+    #[test]
+    fn a_part_that_waits_for_a_slow_computer_is_not_blamed() {
+        let mut found = inspected_cell(CellChoice::InTurn, 1);
+        found.followed = Some(LiveFrameContext {
+            stillness: MotionState::Watching,
+            standing: LiveVerdict::Open,
+        });
+        let found = Arc::new(found);
+        let mut session = Session {
+            shown: Some(Shown {
+                session: Some(1),
+                ..Shown::new(1, Arc::clone(&found))
+            }),
+            ..Session::default()
+        };
+        session.live.is_on = true;
+        let mut headline = |held_up_by| {
+            session.live.status = Some(LiveStatus {
+                source: SourceState::Running,
+                stillness: Some(MotionState::Watching),
+                standing: LiveVerdict::Open,
+                rates: [None; 2],
+                latency: None,
+                held_up_by,
+                num_inspected: 9,
+                num_dropped: 99,
+                num_averaged: 1,
+                recorded: None,
+            });
+            let headline = Headline::of(&found, &session);
+            assert_eq!(headline.state, HeadlineState::Open);
+            headline.complaint.expect("said")
+        };
+        let slow = Pace {
+            num_inspected: 2,
+            num_frames: 30,
+        };
+        let (why, advice) = headline(Some(slow));
+        assert!(why.ends_with("too slow: 2 of 30 frames inspected"), "{why}");
+        assert!(advice.contains("max_parts"), "{advice}");
+        let (why, _) = headline(None);
+        assert!(!why.contains("slow"), "{why}");
     }
 
     #[test]

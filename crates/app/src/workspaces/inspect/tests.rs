@@ -215,6 +215,7 @@ fn follow(session: &mut Session, inspected: &mut Inspected, stillness: MotionSta
         standing: LiveVerdict::Counted(Box::new(counted)),
         rates: [None; 2],
         latency: None,
+        held_up_by: None,
         num_inspected: 9,
         num_dropped: 0,
         num_averaged: 1,

@@ -4,6 +4,9 @@
 //! agreement is no proof, but their disagreement is a warning: a part is accepted only if nearly every frame accepts
 //! it, none accepts another, and their poses lie together. The score is the lower median, which is the score of an
 //! actual frame.
+//!
+//! Of a computer that inspects few frames, fewer are enough if they are far apart and all say the same: while nothing moves between
+//! them, frames in quick succession would add little.
 
 use std::{collections::VecDeque, time::Duration};
 
@@ -25,6 +28,9 @@ pub struct ConsensusParams {
     pub num_frames: usize,
     /// Minimum number of frames that it rests on, 1..=`num_frames`. Raising it makes the user wait longer.
     pub least_frames: usize,
+    /// Fewer than `least_frames`, but at least two, are enough if the first and the last are this far apart and all agree, 0.3..5 s.
+    /// Raising it makes the user of a slow computer wait longer.
+    pub least_span: Duration,
     /// Share of the frames that must agree, 0.5..1. Lowering it accepts parts that some frames reject.
     pub least_share: f64,
     /// How far poses may lie apart to be averaged.
@@ -36,6 +42,7 @@ impl Default for ConsensusParams {
         Self {
             num_frames: 10,
             least_frames: 5,
+            least_span: Duration::from_millis(900),
             least_share: 0.8,
             tolerance: PoseTolerance {
                 shift: Metres::from_mm(6.0),
@@ -56,6 +63,17 @@ pub struct ConsensusVerdict {
     pub num_agreeing: usize,
     /// Mean of the poses that agree; `None` if no part was named or no pose was asked for.
     pub pose: Option<MeanPose>,
+}
+
+impl ConsensusVerdict {
+    /// True if all frames say the same.
+    fn is_unanimous(&self) -> bool {
+        let is_split = matches!(
+            self.verdict.rejected(),
+            Some(Rejection::Undecided { .. } | Rejection::PosesApart { .. })
+        );
+        self.num_agreeing == self.num_frames && !is_split
+    }
 }
 
 /// The result of one frame.
@@ -125,13 +143,31 @@ impl Consensus {
             .iter()
             .filter(|frame| frame.at >= since)
             .collect();
-        if frames.len() < self.least_frames() {
+        let is_enough = frames.len() >= self.least_frames();
+        if !is_enough && !self.spans(&frames) {
             return None;
         }
+        let agreed = self.agreed_by(&frames, accept)?;
+        (is_enough || agreed.is_unanimous()).then_some(agreed)
+    }
+
+    /// True if the first and the last frame are far enough apart for few frames to be enough.
+    fn spans(&self, frames: &[&FrameVerdict]) -> bool {
+        let ends = frames.first().zip(frames.last());
+        let span = ends.map(|(first, last)| last.at.saturating_sub(first.at));
+        frames.len() >= 2 && span.is_some_and(|span| span >= self.params.least_span)
+    }
+
+    /// The verdict of these frames.
+    fn agreed_by(
+        &self,
+        frames: &[&FrameVerdict],
+        accept: &AcceptParams,
+    ) -> Option<ConsensusVerdict> {
         let num_frames = frames.len();
         let needed = (self.params.least_share * num_frames as f64).ceil() as usize;
-        let Some(name) = most_named(&frames) else {
-            return nothing_named(&frames);
+        let Some(name) = most_named(frames) else {
+            return nothing_named(frames);
         };
         let naming: Vec<&FrameVerdict> = frames
             .iter()
@@ -143,7 +179,7 @@ impl Consensus {
             .filter(|frame| named(&frame.verdict).is_none())
             .count();
         if num_empty > naming.len() {
-            return nothing_named(&frames);
+            return nothing_named(frames);
         }
         let of = |pick: fn(&Verdict) -> Option<f64>| {
             lower_median(naming.iter().filter_map(|frame| pick(&frame.verdict))).unwrap_or(0.0)
@@ -184,7 +220,7 @@ impl Consensus {
             let is_common = num_rejecting >= needed && !is_contradicted;
             Some(
                 last.filter(|_| is_common)
-                    .or_else(|| almost_equal(&frames, name, needed))
+                    .or_else(|| almost_equal(frames, name, needed))
                     .unwrap_or_else(|| undecided(num_accepting)),
             )
         } else if score < accept.min_score || margin < accept.min_margin {

@@ -85,6 +85,8 @@ enum HungState {
     Unsettled {
         best_score: f64,
         is_named: bool,
+        /// The best frame is one of those after it had come to rest.
+        was_still: bool,
         /// The name that the last frame gave it.
         last: String,
         /// Where that frame showed it.
@@ -298,15 +300,20 @@ impl HungParts {
             HungState::Unsettled {
                 best_score,
                 is_named,
+                was_still,
                 ..
-            } => Some((*is_named, *best_score)),
+            } => Some((*is_named, *was_still, *best_score)),
         };
-        // A frame that looks like an enrolled part is better than one that looks like none, whatever their scores.
-        let is_best = known.is_none_or(|known| (is_named, score) > known);
-        let (is_named, best_score) = known.filter(|_| !is_best).unwrap_or((is_named, score));
+        // A frame that looks like an enrolled part is better than one that looks like none, whatever their scores, and one after
+        // the part had come to rest is better than one before: had there been more of them, its verdict would have counted.
+        let is_still = matches!(frame.verdict, LiveVerdict::Gathering { .. });
+        let shown = (is_named, is_still, score);
+        let is_best = known.is_none_or(|known| shown > known);
+        let (is_named, was_still, best_score) = known.filter(|_| !is_best).unwrap_or(shown);
         self.state = HungState::Unsettled {
             best_score,
             is_named,
+            was_still,
             last: name.to_owned(),
             surface: Surface::of(frame),
             seen_at: frame.at,

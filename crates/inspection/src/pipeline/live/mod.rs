@@ -7,11 +7,15 @@
 //!
 //! A verdict on a part that swings or is just being hung is useless to a robot. So every frame is inspected, but no
 //! verdict counts until nothing has moved for a while and the last frames agree.
+//!
+//! Both go by the frames' own times. Where the computer inspects only some of a camera's frames, a detector of its own sees the
+//! others too, so that few frames suffice and none hides a motion.
 
 mod average;
 mod consensus;
 mod hung;
 mod mean_pose;
+mod pace;
 mod spots;
 mod steady;
 mod two_frames;
@@ -20,13 +24,15 @@ use std::{sync::Arc, time::Duration};
 
 use nalgebra::Point3;
 
+use self::pace::PaceMeter;
 pub use self::{
     average::{DepthAverage, MAX_AVERAGED},
     consensus::{Consensus, ConsensusParams, ConsensusVerdict},
     hung::{FrameRole, HungFrame, HungParts, Left},
     mean_pose::{MeanPose, PoseTolerance, mean_pose},
+    pace::Pace,
     spots::{nothing_there, spots_of},
-    steady::{MotionDetector, MotionState, SteadyParams},
+    steady::{MotionDetector, MotionState, SceneMotion, SteadyParams},
     two_frames::{poses_agree, refuse_moving, refuse_unless_again},
 };
 use super::{AcceptParams, Inspection, Rejection, Verdict};
@@ -84,7 +90,10 @@ impl LiveVerdict {
 /// Follows one camera. The same frames at the same times always lead to the same verdicts.
 #[derive(Debug)]
 pub struct LiveTracker {
+    /// Sees the frames of a source whose every frame is passed to [`look`](Self::look).
     steady: MotionDetector,
+    motion: SceneMotion,
+    pace: PaceMeter,
     average: DepthAverage,
     consensus_params: ConsensusParams,
     /// That of each spot where a part may hang.
@@ -99,6 +108,8 @@ impl LiveTracker {
     pub fn new(params: &LiveParams) -> Self {
         Self {
             steady: MotionDetector::new(params.steady.clone()),
+            motion: SceneMotion::default(),
+            pace: PaceMeter::default(),
             average: DepthAverage::over(params.average),
             consensus_params: params.consensus.clone(),
             consensus: Vec::new(),
@@ -109,7 +120,7 @@ impl LiveTracker {
 
     /// Whether the scene moves, judging by the frames so far.
     pub fn stillness(&self) -> MotionState {
-        self.steady.stillness()
+        self.motion.state
     }
 
     /// Frames that the depth of the next scene is averaged over.
@@ -123,22 +134,31 @@ impl LiveTracker {
     }
 
     /// Takes in a frame and returns the scene to inspect: the frame itself, or its average with the previous ones
-    /// while nothing moves. `at` is the camera's time, from any origin.
-    pub fn look(&mut self, mut scene: Arc<SceneCloud>, at: Duration) -> Arc<SceneCloud> {
+    /// while nothing moves. `at` is the camera's time, from any origin. `watched` is what a detector that saw all of the
+    /// camera's frames knows after this one; without it, every frame must be passed here.
+    pub fn look(
+        &mut self,
+        mut scene: Arc<SceneCloud>,
+        at: Duration,
+        watched: Option<SceneMotion>,
+    ) -> Arc<SceneCloud> {
         if self.field_of_view.is_some() && scene.known_view.is_none() {
             Arc::make_mut(&mut scene).set_known_view(self.field_of_view.clone());
         }
         self.field_of_view =
             FieldOfView::remembered(self.field_of_view.take(), scene.field_of_view());
-        let run = self.steady.run();
-        let stillness = self.steady.see(&scene, at);
+        let run = self.motion.run;
+        self.motion = watched.unwrap_or_else(|| {
+            self.steady.see(&scene, at);
+            self.steady.motion()
+        });
         self.last_at = at;
-        if self.steady.run() != run {
+        if self.motion.run != run {
             self.average.clear();
             self.consensus.clear();
         }
         self.average.add(&scene);
-        if stillness.is_steady() {
+        if self.motion.state.is_steady() {
             self.average.mean().unwrap_or(scene)
         } else {
             scene
@@ -161,7 +181,7 @@ impl LiveTracker {
         }
         let consensus = &mut self.consensus[spot];
         consensus.add(self.last_at, inspection, middle);
-        let standing = match self.steady.stillness() {
+        let standing = match self.motion.state {
             MotionState::Watching | MotionState::Moving => LiveVerdict::Open,
             MotionState::Steady { since, .. } => {
                 if let Some(agreed) = consensus.agreed(since, accept) {
@@ -174,6 +194,22 @@ impl LiveTracker {
         };
         standing.overwrite_verdict(inspection);
         standing
+    }
+
+    /// Counts the frame that was judged. `number` is counted by the camera; `waits` says whether a verdict on a part waits for
+    /// further frames.
+    pub fn judged(&mut self, number: u64, waits: bool) {
+        self.pace.add(self.last_at, number, waits);
+    }
+
+    /// The pace, if fewer than half of the camera's frames are inspected.
+    pub fn slow(&self) -> Option<Pace> {
+        self.pace.slow()
+    }
+
+    /// The pace, if a verdict has waited two seconds or longer because fewer than half of the camera's frames are inspected.
+    pub fn held_up_by(&self) -> Option<Pace> {
+        self.pace.holds_up()
     }
 }
 

@@ -65,6 +65,15 @@ impl MotionState {
     }
 }
 
+/// What is known of a scene after a frame, by all frames up to it that a [`MotionDetector`] saw.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct SceneMotion {
+    /// Whether it moves.
+    pub state: MotionState,
+    /// Number of restarts so far; frames of different runs do not show one still scene.
+    pub run: u64,
+}
+
 /// Approximate number of pixels compared: a quarter of a Kinect's, a sixteenth of 1280 × 960.
 const NUM_SAMPLES: usize = 76_800;
 /// Spells that must agree, each with each.
@@ -139,6 +148,14 @@ impl MotionDetector {
     /// Whether the scene moves, judging by the frames so far.
     pub fn stillness(&self) -> MotionState {
         self.stillness
+    }
+
+    /// What is known of the scene after the last frame.
+    pub fn motion(&self) -> SceneMotion {
+        SceneMotion {
+            state: self.stillness,
+            run: self.run,
+        }
     }
 
     /// Takes in a frame and returns the new state. `at` is the camera's time. A scene without rows and columns is

@@ -36,7 +36,7 @@ fn a_part_is_accepted_once_it_hangs_still_and_no_longer_when_it_moves() {
             } else {
                 0.2 / 30.0 * (number - 39) as f64
             };
-            let scene = watch.look(scene(&part, number, x), FRAME * number as u32);
+            let scene = watch.look(scene(&part, number, x), FRAME * number as u32, None);
             // Every frame is looked at, but not every one can be inspected in time.
             if number % 4 != 0 && number < 40 {
                 return None;
@@ -122,8 +122,8 @@ fn the_field_of_view_that_earlier_frames_showed_is_known_of_a_part_alone() {
     let mut watch = LiveTracker::new(&LiveParams::default());
     let (whole, alone) = (within([60, 40]), within([230, 150]));
     assert!(is_inner(&whole) && !is_inner(&alone));
-    watch.look(whole, FRAME);
-    assert!(is_inner(&watch.look(alone, FRAME * 2)));
+    watch.look(whole, FRAME, None);
+    assert!(is_inner(&watch.look(alone, FRAME * 2, None)));
 }
 
 #[test]

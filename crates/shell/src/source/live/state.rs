@@ -1007,6 +1007,7 @@ mod tests {
             standing: LiveVerdict::Open,
             rates: [None; 2],
             latency: None,
+            held_up_by: None,
             num_inspected: 1,
             num_dropped: 0,
             num_averaged: 1,

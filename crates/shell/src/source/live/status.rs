@@ -96,6 +96,10 @@ pub(crate) fn words(session: &Session) -> (Mark, String) {
         let opening = text!("live-opening");
         return (Mark::Open, format!("{name} · {opening}"));
     };
+    if status.held_up_by.is_some() && status.source == SourceState::Running {
+        let what = text!("live-too-slow");
+        return (Mark::Look, format!("{name} · {what}"));
+    }
     let (sign, what) = match (&status.source, status.stillness) {
         (SourceState::Lost(_), _) => (Mark::Bad, text!("live-lost")),
         (SourceState::Opening, _) => (Mark::Open, text!("live-opening")),
@@ -161,6 +165,7 @@ mod tests {
     use std::time::Duration;
 
     use super::*;
+    use inspection::pipeline::live::Pace;
 
     fn running(stillness: Option<MotionState>) -> LiveStatus {
         LiveStatus {
@@ -169,6 +174,7 @@ mod tests {
             standing: LiveVerdict::Open,
             rates: [Some(0.0); 2],
             latency: Some(Duration::from_millis(88)),
+            held_up_by: None,
             num_inspected: 8,
             num_dropped: 0,
             num_averaged: 1,
@@ -189,6 +195,31 @@ mod tests {
             let (sign, words) = words(&session);
             assert_ne!(sign, Mark::Good, "{words}");
         }
+    }
+
+    #[test]
+    fn while_a_verdict_waits_for_a_slow_computer_the_source_says_so() {
+        let mut session = Session::default();
+        let says = |session: &Session| {
+            let (_, words) = words(session);
+            words.contains("computer too slow")
+        };
+        let slow = LiveStatus {
+            held_up_by: Some(Pace {
+                num_inspected: 2,
+                num_frames: 30,
+            }),
+            ..running(Some(MotionState::Watching))
+        };
+        session.live.status = Some(slow.clone());
+        assert!(says(&session), "{}", words(&session).1);
+        session.live.status = Some(LiveStatus {
+            source: SourceState::Opening,
+            ..slow
+        });
+        assert!(!says(&session));
+        session.live.status = Some(running(Some(MotionState::Watching)));
+        assert!(!says(&session));
     }
 
     #[test]

@@ -27,12 +27,12 @@ use inspection::{
     library::Library,
     pipeline::{
         self, Inspection, NamedRecipe, ProgressObserver, Verdict,
-        live::{FrameRole, LiveParams, LiveTracker, LiveVerdict, MAX_AVERAGED, MotionState},
+        live::{FrameRole, LiveParams, LiveTracker, LiveVerdict, MAX_AVERAGED, MotionState, Pace},
     },
 };
 use records::history::{NewEntry, Traceability};
 use stages::scene::EmptyCell;
-use station::{SeenFrame, SeenPart};
+use station::{MotionWatch, SeenFrame, SeenPart};
 use ui::{
     task::{Task, TaskContext, TaskError, TaskRunner},
     user_error::UserError,
@@ -153,6 +153,8 @@ pub struct LiveStatus {
     pub rates: [Option<f64>; 2],
     /// Median time from a frame's arrival to its verdict, over the last frames.
     pub latency: Option<Duration>,
+    /// The pace, if a verdict has waited two seconds or longer because fewer than half of the camera's frames are inspected.
+    pub held_up_by: Option<Pace>,
     /// Frames inspected since the start.
     pub num_inspected: u64,
     /// Frames dropped for a newer one since the start.
@@ -228,6 +230,8 @@ struct LiveSession<'a> {
     recipe_identity: String,
     /// `None` for a source whose captures are independent.
     watch: Option<LiveTracker>,
+    /// Sees the frames that are dropped while others are inspected.
+    motion: Option<MotionWatch>,
     rate: FrameRate,
     latencies: VecDeque<Duration>,
     standing: LiveVerdict,
@@ -266,6 +270,7 @@ impl<'a> LiveSession<'a> {
             recipe_identity: request.recipe.identity(),
             stillness: watch.as_ref().map(LiveTracker::stillness),
             watch,
+            motion: None,
             rate: FrameRate::default(),
             latencies: VecDeque::new(),
             standing: LiveVerdict::Open,
@@ -278,6 +283,8 @@ impl<'a> LiveSession<'a> {
 
     fn follow(mut self, feed: &Feed) -> Result<LiveAnswer, TaskError> {
         self.dropped_before = feed.status().num_dropped;
+        let motion = MotionWatch::of_source(&self.request.spec, feed);
+        self.motion = motion.map_err(|error| TaskError::from(UserError::of(&error)))?;
         if let Some(first) = self.request.again.first() {
             match guarded(|| self.inspect_again(first)) {
                 Ok(inspected) => inspected?,
@@ -376,7 +383,9 @@ impl<'a> LiveSession<'a> {
         let recipe = &self.request.recipe;
         let fitted = loaded.fitting(recipe, &watching);
         let fitted = fitted.ok_or(TaskError::Cancelled)?;
-        let (arrived, at) = (captured.arrived, seconds(&captured));
+        let (arrived, at, number) = (captured.arrived, seconds(&captured), captured.number);
+        let motion = self.motion.as_ref();
+        let watched = motion.map(|motion| motion.motion_of(&captured));
         let origin = Origin::of_capture(&captured, &self.request.spec, num_dropped);
         let SceneOrigin {
             mut scene,
@@ -387,13 +396,14 @@ impl<'a> LiveSession<'a> {
             Arc::make_mut(&mut scene).empty_cell = Some(Arc::clone(cell));
         }
         if let Some(watch) = &mut self.watch {
-            scene = watch.look(scene, at);
+            scene = watch.look(scene, at, watched);
         }
         let found = pipeline::run_all(&scene, &fitted, recipe, &watching)?;
         let inputs = format!("{} {}", self.recipe_identity, loaded.shown.identity);
         let frame = SeenFrame {
             scene: &scene,
             at,
+            number,
             inputs: &inputs,
         };
         let parts = self.judged(found, &frame, &fitted);
@@ -563,6 +573,7 @@ impl<'a> LiveSession<'a> {
             standing: self.standing.clone(),
             rates: [feed.rate, self.rate.per_second(Instant::now())],
             latency: latencies.get(latencies.len() / 2).copied(),
+            held_up_by: self.watch.as_ref().and_then(LiveTracker::held_up_by),
             num_inspected: self.num_inspected,
             num_dropped: feed.num_dropped.saturating_sub(self.dropped_before),
             num_averaged: self.watch.as_ref().map_or(1, LiveTracker::num_averaged),

@@ -22,10 +22,15 @@ fn unlike(name: &str) -> Rejection {
 }
 
 fn consensus(frames: impl IntoIterator<Item = (Verdict, f64)>) -> Consensus {
+    consensus_every(33, frames)
+}
+
+/// The same, with this many milliseconds from frame to frame.
+fn consensus_every(ms: u64, frames: impl IntoIterator<Item = (Verdict, f64)>) -> Consensus {
     let mut all = Consensus::new(ConsensusParams::default());
     for (number, (verdict, x)) in frames.into_iter().enumerate() {
         all.frames.push_back(FrameVerdict {
-            at: Duration::from_millis(33 * number as u64),
+            at: Duration::from_millis(ms * number as u64),
             verdict,
             reference: Some("door".into()),
             camera_from_part: Some(from_euler_zyx([0.0, 0.0, 0.0, x, 0.0, 1.2])),
@@ -70,6 +75,35 @@ fn too_few_frames_say_nothing_and_those_from_before_do_not_count() {
     let since = Duration::from_millis(33 * 3);
     assert_eq!(seven.agreed(since, &AcceptParams::default()), None);
     assert_eq!(seven.gathered(since), (4, 5));
+}
+
+#[test]
+fn few_frames_are_enough_if_they_are_far_apart_and_all_say_the_same() {
+    let frames = |scores: &[Option<f64>], away: f64| {
+        let frames = scores.iter().enumerate().map(|(i, score)| {
+            let verdict = match score {
+                Some(score) => part("door", *score, None),
+                None => part("door", 0.2, Some(unlike("door"))),
+            };
+            (verdict, away * i as f64)
+        });
+        frames.collect::<Vec<_>>()
+    };
+    let agreed = |ms, frames: Vec<(Verdict, f64)>| {
+        let all = consensus_every(ms, frames);
+        all.agreed(Duration::ZERO, &AcceptParams::default())
+    };
+    let accepted = agreed(500, frames(&[Some(0.99); 3], 0.0)).expect("1 s apart");
+    assert!(accepted.verdict.is_accepted() && accepted.num_frames == 3);
+    assert!(agreed(1000, frames(&[Some(0.99); 2], 0.0)).is_some());
+    let refused = agreed(1000, frames(&[None; 2], 0.0)).expect("both refuse it");
+    assert_eq!(refused.verdict.rejected(), Some(&unlike("door")));
+    // One alone, two in quick succession, frames that differ, and poses that do.
+    assert_eq!(agreed(1000, frames(&[Some(0.99)], 0.0)), None);
+    assert_eq!(agreed(500, frames(&[Some(0.99); 2], 0.0)), None);
+    let split = [Some(0.99), None, Some(0.99)];
+    assert_eq!(agreed(500, frames(&split, 0.0)), None);
+    assert_eq!(agreed(500, frames(&[Some(0.99); 3], 0.02)), None);
 }
 
 #[test]

@@ -1,0 +1,142 @@
+//! How many of a camera's frames are inspected, by the frames' own times and numbers.
+
+use std::{collections::VecDeque, time::Duration};
+
+use crate::pipeline::Rejection;
+
+/// Frames that a camera delivered in about a second, and those of them that were inspected.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Pace {
+    /// Frames that were inspected.
+    pub num_inspected: usize,
+    /// Frames that the camera delivered.
+    pub num_frames: usize,
+}
+
+impl Pace {
+    /// True if fewer than half of the frames are inspected.
+    fn is_slow(self) -> bool {
+        2 * self.num_inspected < self.num_frames
+    }
+
+    /// The refusal of a part that is not judged for it.
+    pub fn refusal(self, part: String) -> Rejection {
+        let Self {
+            num_inspected,
+            num_frames,
+        } = self;
+        Rejection::TooSlow {
+            part,
+            num_inspected,
+            num_frames,
+        }
+    }
+}
+
+/// Time over which frames are counted, unless two inspected ones are further apart.
+const WINDOW: Duration = Duration::from_secs(1);
+/// Time for which a verdict must have waited for a slow computer before anybody is told.
+const PATIENCE: Duration = Duration::from_secs(2);
+
+/// Counts the frames of one camera.
+#[derive(Debug, Default)]
+pub(super) struct PaceMeter {
+    /// Times and numbers of the inspected frames of the last second, and of the one before those.
+    inspected: VecDeque<(Duration, u64)>,
+    /// Since when a verdict has waited while fewer than half of the frames were inspected.
+    waits_since: Option<Duration>,
+}
+
+impl PaceMeter {
+    /// Counts an inspected frame. `number` is counted by the camera, `waits` says whether a verdict on a part waits for further
+    /// frames.
+    pub(super) fn add(&mut self, at: Duration, number: u64, waits: bool) {
+        let before = self.inspected.back().copied();
+        if before.is_some_and(|(then, last)| then >= at || last >= number) {
+            // The source was opened again, or a clock was set back.
+            *self = Self::default();
+        }
+        let before = self.inspected.back().map_or(at, |(then, _)| *then);
+        self.inspected.push_back((at, number));
+        while self.inspected.len() > 2 && self.inspected[1].0 + WINDOW <= at {
+            self.inspected.pop_front();
+        }
+        self.waits_since = if waits && self.slow().is_some() {
+            Some(self.waits_since.unwrap_or(before))
+        } else {
+            None
+        };
+    }
+
+    /// The pace, if fewer than half of the frames are inspected.
+    pub(super) fn slow(&self) -> Option<Pace> {
+        let (first, last) = (self.inspected.front()?, self.inspected.back()?);
+        let pace = Pace {
+            num_inspected: self.inspected.len() - 1,
+            num_frames: usize::try_from(last.1 - first.1).unwrap_or(usize::MAX),
+        };
+        pace.is_slow().then_some(pace)
+    }
+
+    /// The pace, if a verdict has waited for it long enough to tell.
+    pub(super) fn holds_up(&self) -> Option<Pace> {
+        let (last, _) = self.inspected.back()?;
+        let waited = last.saturating_sub(self.waits_since?);
+        self.slow().filter(|_| waited >= PATIENCE)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What is said after each inspected frame of a camera with 30 frames a second, of which one in `step` is inspected.
+    fn said(step: u64, waits: impl Fn(f64) -> bool) -> Vec<(f64, Option<Pace>)> {
+        let mut meter = PaceMeter::default();
+        let frames = (0..300).step_by(step as usize).map(|number| {
+            let at = Duration::from_secs(number) / 30;
+            let seconds = at.as_secs_f64();
+            meter.add(at, number, waits(seconds));
+            (seconds, meter.holds_up())
+        });
+        frames.collect()
+    }
+
+    #[test]
+    fn a_slow_computer_is_named_after_two_seconds_in_which_a_verdict_waits_and_no_longer() {
+        let waits = |seconds: f64| (2.0..6.2).contains(&seconds);
+        for (seconds, pace) in said(15, waits) {
+            let expected = Pace {
+                num_inspected: 2,
+                num_frames: 30,
+            };
+            let is_told = (3.5..6.2).contains(&seconds);
+            assert_eq!(pace, is_told.then_some(expected), "after {seconds} s");
+        }
+        // Half of the frames are enough, and nobody waits.
+        assert!(said(2, |_| true).iter().all(|(_, pace)| pace.is_none()));
+        assert!(said(15, |_| false).iter().all(|(_, pace)| pace.is_none()));
+    }
+
+    #[test]
+    fn frames_further_apart_than_the_window_count_from_the_one_before() {
+        let of_slow = said(90, |_| true);
+        let expected = Pace {
+            num_inspected: 1,
+            num_frames: 90,
+        };
+        assert_eq!(of_slow[0].1, None);
+        assert!(of_slow[1..].iter().all(|(_, pace)| *pace == Some(expected)));
+    }
+
+    #[test]
+    fn a_source_that_is_opened_again_is_counted_anew() {
+        let mut meter = PaceMeter::default();
+        for number in 1..8 {
+            meter.add(Duration::from_millis(500 * number), 15 * number, true);
+        }
+        assert!(meter.holds_up().is_some());
+        meter.add(Duration::from_secs(9), 1, true);
+        assert_eq!((meter.slow(), meter.holds_up()), (None, None));
+    }
+}
