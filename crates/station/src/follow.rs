@@ -505,7 +505,7 @@ mod tests {
 
     #[test]
     fn of_two_frames_a_second_two_parts_one_after_the_other_are_two() {
-        let rows = rows_of(1, 5, 116, line(CellScene::Line { every: 6.0 }));
+        let rows = rows_of(1, 5, 116, line(CellScene::Line { every: 6.0 }, 116));
         let [first, second] = [accepted(&rows, 0.0..6.0), accepted(&rows, 6.0..12.0)];
         assert_eq!((first.len(), second.len()), (1, 1), "{rows:?}");
         assert_ne!(first, second);
