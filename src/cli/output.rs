@@ -156,7 +156,7 @@ impl Columns {
             };
             format!("{score:5.2} {margin:6.2}  {middle:>23}  {turn:>23}  {rms:>5} {time_ms:7.1}")
         });
-        let found = verdict.identification(&inspected.recipe.parameters.accept);
+        let found = verdict.identification();
         let part = in_column(found, verdict.guess().unwrap_or_default());
         self.row(scene, &part, accepted_or_not(verdict), &figures, console);
         if let Some([why, what_to_do]) = inspection.verdict.complaint() {

@@ -21,6 +21,7 @@ use super::{
     recipe::RecipeChoice,
     trace::TraceChoice,
 };
+use geometry::error::Advice as _;
 use inspection::{
     library::{LibraryLoad, PartMeta},
     pipeline::{Inspection, NamedRecipe, Unwatched, run_all},
@@ -28,8 +29,8 @@ use inspection::{
 use records::{
     history::Traceability,
     report::{
-        ReportFolder,
-        pose_report::{PdfPictures, PoseReport, ReportSubject, SeenBy, append_csv, pose_pdf},
+        ReportError, ReportFolder, WrittenPose,
+        pose_report::{PdfPictures, PoseReport, ReportSubject, SeenBy, pose_pdf},
         stage_pictures,
     },
 };
@@ -218,24 +219,24 @@ impl Reporter<'_> {
         let mut outcome = Outcome::accepted_if(self.recipe.is_met(&found));
         for (number, inspection) in (1..).zip(&found) {
             let of_part = (found.len() > 1).then(|| file_of_part(path, number));
-            let written = self.report_part(&scene, inspection, (path, of_part), console);
             // Go on: the next report may fit on the disk, or the stick may be back.
-            if let Err(error) = written {
-                console.error(&error);
+            for error in self.report_part(&scene, inspection, (path, of_part), console) {
+                console.advise(&format_args!("error: {error}"), &error.advice());
                 outcome = Outcome::CouldNotRun;
             }
         }
         Ok(outcome)
     }
 
-    /// Reports one part of the scene of a file; `of_part` names its report if there are several.
+    /// Reports one part of the scene of a file; `of_part` names its report if there are several. Returns what could not be
+    /// written.
     fn report_part(
         &mut self,
         scene: &Arc<SceneCloud>,
         inspection: &Inspection,
         (path, of_part): (&Path, Option<PathBuf>),
         console: &mut Console,
-    ) -> anyhow::Result<()> {
+    ) -> Vec<ReportError> {
         let is_simulated = self.args.simulated || scene.cloud.is_simulated;
         let report = self.report_of(&Inspected {
             subject: &Subject::of_file(path, is_simulated),
@@ -247,10 +248,23 @@ impl Reporter<'_> {
             on_line: None,
         });
         let of_part = of_part.as_deref().unwrap_or(path);
-        let mut files = Vec::new();
-        let written = self.write(of_part, scene, inspection, &report, &mut files, console);
+        let WrittenPose {
+            pages,
+            table,
+            aside,
+            errors,
+        } = self.write(of_part, scene, inspection, &report);
+        if let (Some(table), Some(aside)) = (&table, aside) {
+            console.note(&format_args!(
+                "note: the last row of {} was incomplete; it was set aside in {}",
+                table.display(),
+                aside.display()
+            ));
+        }
+        let files = pages.iter().chain(&table);
+        let files: Vec<String> = files.map(|path| path.display().to_string()).collect();
         if files.is_empty() {
-            return written;
+            return errors;
         }
         let verdict = &report.verdict;
         let part = verdict.part.as_deref().unwrap_or(verdict.status);
@@ -260,15 +274,11 @@ impl Reporter<'_> {
             "NOT ACCEPTED"
         };
         let name = path.display();
-        let files: Vec<String> = files
-            .iter()
-            .map(|path| path.display().to_string())
-            .collect();
         console.line(&format_args!(
             "{name}: {part}, {accepted}: {}",
             files.join(", ")
         ));
-        written
+        errors
     }
 
     fn report_of(&self, inspected: &Inspected<'_>) -> PoseReport {
@@ -304,20 +314,18 @@ impl Reporter<'_> {
         })
     }
 
-    /// Writes all formats, and adds the files that are written.
+    /// Writes all formats.
     fn write(
         &mut self,
         path: &Path,
         scene: &SceneCloud,
         inspection: &Inspection,
         report: &PoseReport,
-        written: &mut Vec<PathBuf>,
-        console: &Console,
-    ) -> anyhow::Result<()> {
+    ) -> WrittenPose {
         let asked = |format| self.args.format.contains(&format);
-        let mut files = Vec::new();
+        let mut pages = Vec::new();
         if asked(Format::Json) {
-            files.push(("json", report.to_json().into_bytes()));
+            pages.push(("json", report.to_json().into_bytes()));
         }
         if asked(Format::Pdf) {
             let best = inspection.ranking.entries.first();
@@ -327,25 +335,9 @@ impl Reporter<'_> {
                 stages: &stage_pictures(scene, inspection),
                 title: title.map(PartMeta::shown_title),
             };
-            files.push(("pdf", pose_pdf(report, &pictures)));
+            pages.push(("pdf", pose_pdf(report, &pictures)));
         }
-        // The row first: it fits where a page does not.
-        let row = asked(Format::Csv).then(|| self.append_row(report, console));
-        let pages = self.folder.write_pose(path, &files, written).advised();
-        let row = row.transpose().map(|csv| written.extend(csv));
-        pages.and(row)
-    }
-
-    /// Appends the row of a report to the table, and returns its file.
-    fn append_row(&self, report: &PoseReport, console: &Console) -> anyhow::Result<PathBuf> {
-        let csv = self.folder.csv(self.args.convention);
-        if let Some(aside) = append_csv(&csv, report).advised()? {
-            console.note(&format_args!(
-                "note: the last row of {} was incomplete; it was set aside in {}",
-                csv.display(),
-                aside.display()
-            ));
-        }
-        Ok(csv)
+        self.folder
+            .write_pose(path, report, asked(Format::Csv), &pages)
     }
 }

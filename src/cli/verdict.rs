@@ -116,7 +116,7 @@ pub(super) fn show_card(
     let mut line = |what: &str, text: String| console.entry(what, &text);
     line("scene", visible(scene).into_owned());
     let verdict = &inspection.verdict;
-    let found = verdict.identification(&inspected.recipe.parameters.accept);
+    let found = verdict.identification();
     let part = what_hangs(found, verdict.guess().unwrap_or_default());
     line("part", format!("{part}: {}", accepted_or_not(verdict)));
     if let Some([score, margin]) = verdict.score() {

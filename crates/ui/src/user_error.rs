@@ -21,6 +21,17 @@ impl UserError {
             advice: error.advice(),
         }
     }
+
+    /// Converts several errors to one that tells all of them, and each advice once.
+    pub fn of_all<E: Display + Advice>(errors: &[E]) -> Self {
+        let what: Vec<String> = errors.iter().map(ToString::to_string).collect();
+        let mut advice: Vec<String> = errors.iter().map(Advice::advice).collect();
+        advice.dedup();
+        Self {
+            what: what.join("\n"),
+            advice: advice.join("\n"),
+        }
+    }
 }
 
 impl From<[String; 2]> for UserError {

@@ -167,14 +167,13 @@ impl Inspector for ServeSession<'_> {
     }
 }
 
-/// The entry of a part for the history, if there is one.
+/// The entry of a part on the line for the history, if there is one. No trigger has named it yet.
 fn entry_of(
     recording: Option<&HistoryRecorder>,
     part: &Inspected<'_>,
     hung: HungId,
-    trace: &Traceability,
 ) -> Option<NewEntry> {
-    recording.map(|recording| recording.traced_entry(part, hung, trace))
+    recording.map(|recording| recording.entry(part, hung))
 }
 
 impl ServeSession<'_> {
@@ -300,16 +299,13 @@ impl ServeSession<'_> {
         let (scenes, console) = (&mut self.scenes, &*self.console);
         let scene_of = |captured| Arc::new(scene_of(captured, scenes, console));
         let recording = self.recording.as_ref();
-        let traced = &self.traced;
-        let entry = |part: &Inspected<'_>, hung| entry_of(recording, part, hung, traced);
+        // What the trigger names is only of the part that the answer begins with, which mostly was recorded before.
+        let entry = |part: &Inspected<'_>, hung| entry_of(recording, part, hung);
         let (answered, recorded, named) =
-            answering.answer_on_line(asked, line, traced, next, scene_of, entry);
+            answering.answer_on_line(asked, line, &self.traced, next, scene_of, entry);
         self.record(recorded);
-        // Most were recorded when they began to count, before the trigger.
-        if let Some(recording) = &self.recording {
-            for hung in named {
-                recording.trace(hung, self.traced.clone());
-            }
+        if let (Some(recording), Some(hung)) = (&self.recording, named) {
+            recording.trace(hung, self.traced.clone());
         }
         match answered {
             Ok(answered) => self.last.insert(answered).found.clone(),
@@ -336,8 +332,7 @@ impl ServeSession<'_> {
         let (scenes, console) = (&mut self.scenes, &*self.console);
         let scene_of = |captured| Arc::new(scene_of(captured, scenes, console));
         let recording = self.recording.as_ref();
-        let trace = &self.trace;
-        let entry = |part: &Inspected<'_>, hung| entry_of(recording, part, hung, trace);
+        let entry = |part: &Inspected<'_>, hung| entry_of(recording, part, hung);
         let followed = guarded(|| {
             answering
                 .follow(captured, subject, line, scene_of, entry)

@@ -29,17 +29,21 @@ pub enum Identification {
 
 impl Identification {
     /// Identifies what hangs there by why it was refused and by the score and margin of the best match; `None` stands for an
-    /// accepted part, and for no part.
-    pub fn new(
-        refused: Option<&RefusalKind>,
-        score: Option<[f64; 2]>,
-        accept: &AcceptParams,
-    ) -> Self {
+    /// accepted part, and for no part. The recipe that refused it is not asked, since a row of the history does not have it:
+    /// where score or margin are the reason, they were too low, and else the limits of the built-in recipe decide.
+    pub fn new(refused: Option<&RefusalKind>, score: Option<[f64; 2]>) -> Self {
         let Some([score, margin]) = score else {
             return Self::NoPart;
         };
-        match refused.map(RefusalKind::name) {
-            None => Self::Part,
+        let usual = AcceptParams::default();
+        let refused = refused.map(RefusalKind::name);
+        let is_low = score < usual.min_score
+            || margin < usual.min_margin
+            || matches!(
+                refused,
+                Some("low_score" | "piece" | "hardly_seen" | "small_margin")
+            );
+        match refused {
             Some("another_make") => Self::AnotherMake,
             Some("another_model") => Self::AnotherModel,
             Some("mirrored" | "mirrored_image") => Self::MirrorImage,
@@ -47,8 +51,8 @@ impl Identification {
             Some("unknown") => Self::Unknown {
                 is_like: is_like(score),
             },
-            Some(_) if score >= accept.min_score && margin >= accept.min_margin => Self::Part,
-            Some(_) => Self::NotRecognised,
+            Some(_) if is_low => Self::NotRecognised,
+            Some(_) | None => Self::Part,
         }
     }
 
@@ -88,10 +92,10 @@ impl Identification {
 }
 
 impl Verdict {
-    /// Says what hangs there, with these limits for accepting it.
-    pub fn identification(&self, accept: &AcceptParams) -> Identification {
+    /// Says what hangs there.
+    pub fn identification(&self) -> Identification {
         let refused = self.refusal().as_ref().map(Refusal::kind);
-        Identification::new(refused.as_ref(), self.score(), accept)
+        Identification::new(refused.as_ref(), self.score())
     }
 }
 
@@ -111,7 +115,7 @@ mod tests {
             rejected,
             is_approximate: false,
         };
-        verdict.identification(&AcceptParams::default())
+        verdict.identification()
     }
 
     #[test]
@@ -126,6 +130,11 @@ mod tests {
                 }
                 Rejection::OtherHalf { .. } => Identification::OtherHalf,
                 Rejection::Unknown { .. } => Identification::Unknown { is_like: true },
+                // Whatever its recipe asks for, it had too little.
+                Rejection::LowScore { .. }
+                | Rejection::Piece { .. }
+                | Rejection::HardlySeen { .. }
+                | Rejection::SmallMargin { .. } => Identification::NotRecognised,
                 _ => Identification::Part,
             };
             assert_eq!(identified(Some(why.clone()), clear), expected, "{why:?}");
@@ -140,8 +149,7 @@ mod tests {
         }
         assert_eq!(identified(None, [0.5, 0.0]), Identification::Part);
         let nothing = Verdict::NoPart(Unrecognisable::EmptyLibrary);
-        let nothing = nothing.identification(&AcceptParams::default());
-        assert_eq!(nothing, Identification::NoPart);
+        assert_eq!(nothing.identification(), Identification::NoPart);
     }
 
     #[test]

@@ -21,8 +21,8 @@ use geometry::{
 use inspection::{
     library::Truth,
     pipeline::{
-        AcceptParams, Expected, ExpectedPart, Identification, Inspection, NamedRecipe, Recipe,
-        RecipeLabel, Refusal, RefusalKind, Verdict,
+        Expected, ExpectedPart, Identification, Inspection, NamedRecipe, Recipe, RecipeLabel,
+        Refusal, RefusalKind, Verdict,
     },
 };
 use stages::{pose::PoseEstimate, scan::Shot, scene::SceneCloud};
@@ -137,9 +137,9 @@ pub struct Summary {
 }
 
 impl Summary {
-    /// Says what hung there. The limits of its recipe are not in the row: those of the built-in recipe decide.
+    /// Says what hung there.
     pub fn identification(&self) -> Identification {
-        Identification::new(self.reason.as_ref(), self.score, &AcceptParams::default())
+        Identification::new(self.reason.as_ref(), self.score)
     }
 
     /// Returns the title of the part of which it is the mirror image, if it is one.

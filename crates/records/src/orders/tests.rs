@@ -205,6 +205,27 @@ fn a_table_is_parsed_again_once_its_file_has_changed_and_only_then() {
 }
 
 #[test]
+fn a_file_that_could_not_be_read_is_tried_again_though_it_looks_the_same() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("orders.csv");
+    let mut file = OrdersFile::at(&path);
+    let at = SystemTime::now() - Duration::from_secs(60);
+    let mut read = |bytes: &[u8]| {
+        std::fs::write(&path, bytes).expect("written");
+        let written = std::fs::File::options().write(true).open(&path);
+        written.expect("there").set_modified(at).expect("dated");
+        file.table()
+    };
+    let unread = read(b"order;parts\n4711;gr\xefll\xe9\n").expect_err("no UTF-8");
+    assert!(matches!(*unread, OrdersError::File(_)), "{unread}");
+    // A table with a fault is kept, and so is one without.
+    let faulty = read(b"order;parts\n4711;      \n").expect_err("no parts");
+    assert!(matches!(*faulty, OrdersError::Cell(_)), "{faulty}");
+    let kept = read(b"order;parts\n4711;grille\n").expect_err("not read again");
+    assert!(Arc::ptr_eq(&faulty, &kept), "{kept}");
+}
+
+#[test]
 fn an_error_names_line_and_column() {
     let many = format!("order,parts\n1,{}\n", ["grille"; 9].join("|"));
     let long = format!("order,parts\n{},grille\n", "9".repeat(65));

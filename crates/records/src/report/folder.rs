@@ -6,7 +6,10 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use super::pictures::{Picture, STAGES, strip, write_png};
+use super::{
+    pictures::{Picture, STAGES, strip, write_png},
+    pose_report::{CsvError, PoseReport, append_csv},
+};
 use files::{FileError, advice_on, disk, words_of, write_atomically, write_text};
 use geometry::error::Advice;
 use robot::Convention;
@@ -28,6 +31,23 @@ pub enum ReportError {
     #[error(transparent)]
     #[advice(transparent)]
     File(#[from] FileError),
+    /// A row cannot be appended to the table of pose reports.
+    #[error(transparent)]
+    #[advice(transparent)]
+    Row(#[from] CsvError),
+}
+
+/// What was written of a pose report.
+#[derive(Debug, Default)]
+pub struct WrittenPose {
+    /// The pages.
+    pub pages: Vec<PathBuf>,
+    /// The table, if it has the row.
+    pub table: Option<PathBuf>,
+    /// Where an incomplete last row of the table is now.
+    pub aside: Option<PathBuf>,
+    /// Why the others are missing.
+    pub errors: Vec<ReportError>,
 }
 
 /// Name of the picture of all stages.
@@ -121,13 +141,24 @@ impl ReportFolder {
         paths.filter(is_picture).collect()
     }
 
-    /// Writes the pose report of a scene as `STEM.pose.ENDING` for each ending, and adds the path of each that is written.
+    /// Writes the pose report of a scene: its row in the table of its convention if `has_row`, and `STEM.pose.ENDING` for each
+    /// ending. None costs another.
     pub fn write_pose(
         &mut self,
         scene: &Path,
-        files: &[(&str, Vec<u8>)],
-        written: &mut Vec<PathBuf>,
-    ) -> Result<(), ReportError> {
+        report: &PoseReport,
+        has_row: bool,
+        pages: &[(&str, Vec<u8>)],
+    ) -> WrittenPose {
+        let mut written = WrittenPose::default();
+        // The row first: it fits where a page does not.
+        if has_row {
+            let table = self.csv(report.robot.convention);
+            match append_csv(&table, report) {
+                Ok(aside) => (written.table, written.aside) = (Some(table), aside),
+                Err(error) => written.errors.push(error.into()),
+            }
+        }
         let path = |stem: &str, ending: &str| self.path.join(format!("{stem}.pose.{ending}"));
         // A depth image of this name would take the report's JSON for its camera.
         let is_free = |stem: &str| !path(stem, "png").exists() && !self.taken_poses.contains(stem);
@@ -135,16 +166,18 @@ impl ReportFolder {
             .find(|stem| is_free(stem))
             .unwrap_or_default();
         self.taken_poses.insert(stem.clone());
-        for (ending, bytes) in files {
+        for (ending, bytes) in pages {
             let path = path(&stem, ending);
-            write_atomically(&path, |writer| writer.write_all(bytes))?;
-            written.push(path);
+            match write_atomically(&path, |writer| writer.write_all(bytes)) {
+                Ok(()) => written.pages.push(path),
+                Err(error) => written.errors.push(error.into()),
+            }
         }
-        Ok(())
+        written
     }
 
     /// Returns the CSV file that collects the pose reports in one convention.
-    pub fn csv(&self, convention: Convention) -> PathBuf {
+    fn csv(&self, convention: Convention) -> PathBuf {
         self.path.join(format!("poses.{}.csv", convention.name()))
     }
 

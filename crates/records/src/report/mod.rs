@@ -31,7 +31,7 @@ pub use self::{
     curves::{SizeCurve, curves_picture, stacked},
     evaluation::evaluation_picture,
     film::{FilmPicture, film_picture},
-    folder::{ReportError, ReportFolder},
+    folder::{ReportError, ReportFolder, WrittenPose},
     pictures::{
         Picture, binary_picture, frame_pictures, segmentation_picture, stage_pictures, write_png,
     },

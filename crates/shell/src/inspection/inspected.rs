@@ -423,7 +423,7 @@ impl FinishedInspection {
         } = self;
         let best = inspection.best_reference(library);
         // What is not of its type is not compared with the part.
-        let found = inspection.verdict.identification(&recipe.accept);
+        let found = inspection.verdict.identification();
         let compared = best.filter(|_| found.is_of_type());
         let deviations = compared.map_or_else(Vec::new, |reference| match &scan {
             Some(found) => {

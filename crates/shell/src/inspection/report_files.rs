@@ -16,8 +16,8 @@ use inspection::pipeline::Inspection;
 use records::{
     history::Traceability,
     report::{
-        ReportError, ReportFolder, frame_pictures,
-        pose_report::{PdfPictures, PoseReport, ReportSubject, SeenBy, append_csv, pose_pdf},
+        ReportFolder, WrittenPose, frame_pictures,
+        pose_report::{PdfPictures, PoseReport, ReportSubject, SeenBy, pose_pdf},
     },
 };
 use robot::{
@@ -242,8 +242,8 @@ fn scene_name(origin: &Origin) -> PathBuf {
 }
 
 /// Writes the selected part of a frame like `partsight inspect --report` and `partsight report`: its line of JSON as of now, the pictures of
-/// its stages and of those of the other parts of its frame, and the pose report as JSON, PDF and a row of CSV; returns a message about it. Because the user did not choose
-/// the file names, an earlier report in the folder is kept.
+/// its stages and of those of the other parts of its frame, and the pose report as JSON, PDF and a row of CSV; returns a message about it. What cannot be written costs none of the
+/// others. Because the user did not choose the file names, an earlier report in the folder is kept.
 pub fn report(
     folder: &Path,
     parts: &[Arc<Inspected>],
@@ -252,17 +252,12 @@ pub fn report(
     report: &PoseReport,
     shot: Option<&ViewShot>,
 ) -> Result<String, UserError> {
-    let problem = |error: ReportError| UserError::of(&error);
     let inspected = &parts[selected];
     let name = scene_name(&inspected.origin);
     let name = unused_name(folder, &name);
     let all: Vec<&Inspection> = parts.iter().map(|part| &part.inspection).collect();
     let stages = frame_pictures(&inspected.scene, &all, selected);
-    let mut out = ReportFolder::make(folder).map_err(problem)?;
-    // The row first: it fits where pictures do not.
-    let table = out.csv(report.robot.convention);
-    let aside = append_csv(&table, report).map_err(|error| UserError::of(&error))?;
-    let path = out.write(&name, line, &stages).map_err(problem)?;
+    let mut out = ReportFolder::make(folder).map_err(|error| UserError::of(&error))?;
     let view = shot.and_then(|shot| on_paper(shot).take().ok());
     let view = view.map(|view| DynamicImage::from(view).into_rgb8());
     let pictures = PdfPictures {
@@ -271,12 +266,26 @@ pub fn report(
         title: inspected.part_title(),
     };
     let pdf = pose_pdf(report, &pictures);
-    let files = [("json", report.to_json().into_bytes()), ("pdf", pdf)];
-    let mut written = vec![path];
-    out.write_pose(&name, &files, &mut written)
-        .map_err(problem)?;
+    let pages = [("json", report.to_json().into_bytes()), ("pdf", pdf)];
+    // The pose report first: it fits where pictures do not.
+    let WrittenPose {
+        pages,
+        table,
+        aside,
+        mut errors,
+    } = out.write_pose(&name, report, true, &pages);
+    let mut written = Vec::new();
+    match out.write(&name, line, &stages) {
+        Ok(path) => written.push(path),
+        Err(error) => errors.push(error),
+    }
+    if !errors.is_empty() {
+        return Err(UserError::of_all(&errors));
+    }
+    written.extend(pages);
     let names: Vec<String> = written.iter().map(|path| file_name(path)).collect();
-    let (files, table) = (names.join(", "), file_name(&table));
+    let table = table.as_deref().map(file_name).unwrap_or_default();
+    let files = names.join(", ");
     let folder = folder.display().to_string();
     Ok(match aside {
         Some(aside) => text!(
@@ -402,6 +411,32 @@ mod tests {
         let pdf = std::fs::read(pdf.expect("a report")).expect("read");
         let title = b"Pose report: Front door, left, ";
         assert!(pdf.windows(title.len()).any(|text| text == title));
+    }
+
+    #[test]
+    fn a_table_that_takes_no_row_costs_nothing_else_of_a_report() {
+        let inspected = inspected_cell(CellChoice::InTurn, 1);
+        let subject = &inspected.subject;
+        let pose = report_of(
+            &inspected,
+            subject,
+            inspected.trace(),
+            None,
+            Convention::Kuka,
+        );
+        let folder = tempfile::tempdir().expect("a folder");
+        let at = |name: &str| folder.path().join(name);
+        std::fs::write(at("poses.kuka.csv"), "mine\n").expect("written");
+        let name = scene_name(&inspected.origin).display().to_string();
+        std::fs::create_dir(at(&format!("{name}.contour.png"))).expect("made");
+        let parts = [Arc::new(inspected)];
+        let error = report(folder.path(), &parts, 0, "{}", &pose, None).expect_err("no table");
+        for told in ["poses.kuka.csv", "contour.png"] {
+            assert!(error.what.contains(told), "{error:?}");
+        }
+        for written in ["report.json", "pose.json", "pose.pdf"] {
+            assert!(at(&format!("{name}.{written}")).exists(), "{written}");
+        }
     }
 
     #[test]

@@ -65,12 +65,9 @@ impl<E> LineFollower<E> {
         self.counts.moment(at, speed.map(|speed| speed / per_count))
     }
 
-    /// Takes the ids of the parts of a frame for which no trigger has named an order before: the first one counts.
-    fn take_unnamed(&mut self, followed: &[Followed]) -> Vec<HungId> {
-        let numbers = followed.iter().filter_map(|part| part.number);
-        numbers
-            .filter_map(|number| self.unnamed.remove(&number))
-            .collect()
+    /// Takes the id of the part that an answer begins with, unless a trigger has named an order for it before.
+    fn take_unnamed(&mut self, followed: &[Followed]) -> Option<HungId> {
+        self.unnamed.remove(&followed.first()?.number?)
     }
 
     /// Ends the source. Returns what is still to be recorded.
@@ -140,7 +137,7 @@ impl Answering<'_> {
         next: impl Fn() -> Result<(Captured, Subject), NoFrame>,
         mut scene_of: impl FnMut(Captured) -> Arc<SceneCloud>,
         entry: impl Fn(&Inspected<'_>, HungId) -> E,
-    ) -> (Result<Answered, NoFrame>, Vec<E>, Vec<HungId>) {
+    ) -> (Result<Answered, NoFrame>, Vec<E>, Option<HungId>) {
         let until = Instant::now() + self.at_most;
         let mut recorded = Vec::new();
         let mut sent = None;
@@ -158,14 +155,17 @@ impl Answering<'_> {
             });
             let (sent, (frame, records)) = match seen {
                 Ok(seen) => seen,
-                Err(why) => return (Err(why), recorded, Vec::new()),
+                Err(why) => return (Err(why), recorded, None),
             };
             recorded.extend(records);
             if frame.is_settled() || Instant::now() >= until || (self.is_ending)() {
-                let is_named = asked.order.is_given();
-                let named = is_named.then(|| line.take_unnamed(&frame.followed));
+                let named = if asked.order.is_given() {
+                    line.take_unnamed(&frame.followed)
+                } else {
+                    None
+                };
                 let answered = self.answered_at(asked, &sent, frame, line, trace);
-                return (Ok(answered), recorded, named.unwrap_or_default());
+                return (Ok(answered), recorded, named);
             }
         }
     }

@@ -13,7 +13,8 @@ use robot::line::{Counter, DEFAULT_EXPOSURE_S, OnLine};
 use serde_json::Value;
 use serve::{Asked, AskedOrder, ExpectedNumbers, PoseKind, VerdictCode};
 use simulate::{
-    CellSetup, LineSetup, PartKind, PartPose, PoseRange, SensorNoise, Side, SimulatedLine,
+    CellSetup, LineSetup, PartKind, PartPose, PoseRange, RackKind, RackSetup, SensorNoise, Side,
+    SimulatedLine, StandingRack,
 };
 use stages::{
     pose::PoseEstimate,
@@ -550,8 +551,8 @@ fn triggers_are_answered_at_their_counts_though_frames_are_delayed_and_arrive_la
             // It is recorded once it counts, and of the order that the first trigger names from then on.
             rows.extend(recorded);
             assert_eq!(rows.len(), usize::from(k >= 3));
-            let of_order = if k == 4 { &rows[..] } else { &[] };
-            assert_eq!(named, of_order, "{k}");
+            let of_order = if k == 4 { rows.first() } else { None };
+            assert_eq!(named.as_ref(), of_order, "{k}");
             let found = answered.expect("a frame").found.first;
             // The count of the first frame is not known yet.
             if k < 3 {
@@ -571,6 +572,96 @@ fn triggers_are_answered_at_their_counts_though_frames_are_delayed_and_arrive_la
             let off = pose_error(&pose, &finder.robot.robot_from_part(&truth), &middle).shift;
             let bound_mm = here.bound_mm;
             assert!(off.mm() <= bound_mm, "{k}: {off} off, {bound_mm} mm");
+        }
+    }
+}
+
+#[test]
+fn a_trigger_names_the_order_of_the_part_that_its_answer_begins_with_and_of_none_behind_it() {
+    let library = shipped_library();
+    let mut recipe = Recipe::default();
+    recipe.segment.max_parts = 2;
+    let recipe = NamedRecipe::from(recipe);
+    let source: SourceSpec = "simulated:fender".parse().expect("a source");
+    let camera = Camera::start(&source).expect("started");
+    let answering = Answering {
+        camera: &camera,
+        finder: &finder(&library),
+        library: &library,
+        recipe: &recipe,
+        expected: ExpectedNumbers::default(),
+        at_most: Duration::ZERO,
+        is_ending: &|| false,
+    };
+    // Two parts on their way to the right, of which that on the right leaves first.
+    let mut follower = LineFollower::new(line(|line| line.direction = Vector3::x_axis()));
+    let setup = RackSetup::drawn(RackKind::Apart, 2, 0, 2).expect("two places");
+    let rack = StandingRack::arrange(&setup).expect("two places");
+    let begin = (Instant::now(), geometry::clock::now());
+    let mut rows = Vec::new();
+    let mut ahead = None;
+    for (k, order) in ["", "", "", "", "4711", "4712", "4712"]
+        .into_iter()
+        .enumerate()
+    {
+        let seconds = 0.4 * k as f64;
+        let at = Duration::from_secs_f64(seconds);
+        let moved = RigidTransform::translation(0.01 * seconds - 0.012, 0.0, 0.0);
+        let frame = rack.frame(
+            |number| (number == 0 || k < 6).then_some(moved),
+            &SensorNoise::kinect(k as u64),
+        );
+        let asked = Asked {
+            at: begin.0 + at,
+            by_clock: begin.1 + at,
+            order: AskedOrder {
+                order: order.into(),
+                serial: String::new(),
+            },
+            ..Asked::now()
+        };
+        let next = || {
+            let captured = Captured {
+                taken_at: begin.1 + at,
+                arrived: begin.0 + at,
+                ..Captured::now(
+                    k as u64,
+                    "frame".into(),
+                    capture::Image::Depth(frame.clone()),
+                )
+            };
+            let subject = Subject::of_capture(&captured, &source, 0);
+            Ok((captured, subject))
+        };
+        let (answered, recorded, named) = answering.answer_on_line(
+            &asked,
+            &mut follower,
+            &Traceability::default(),
+            next,
+            |captured| Arc::new(scene_from_image(captured.image)),
+            |part, hung| (part.inspection.verdict.guess().map(str::to_owned), hung),
+        );
+        rows.extend(recorded);
+        let found = answered.expect("a frame").found.first;
+        assert_eq!(rows.len(), if k < 3 { 0 } else { 2 }, "{k}: {rows:?}");
+        if k < 3 {
+            continue;
+        }
+        assert_eq!(found.verdict, VerdictCode::Accepted, "{:?}", found.problem);
+        let first = rows.iter().find(|row| row.0.as_ref() == Some(&found.part));
+        let first = first.map(|row| row.1.clone());
+        assert!(first.is_some(), "{found:?}: {rows:?}");
+        match k {
+            4 => {
+                assert_eq!(named, first);
+                ahead = first;
+            }
+            // The one behind has a trigger of its own once it comes first.
+            6 => {
+                assert_eq!(named, first);
+                assert_ne!(named, ahead);
+            }
+            _ => assert_eq!(named, None, "{k}"),
         }
     }
 }

@@ -146,7 +146,7 @@ impl Headline {
                 ..Self::default()
             };
         };
-        let found = verdict.identification(&inspected.recipe.accept);
+        let found = verdict.identification();
         // Do not show an uncertain name in large letters.
         let title = found.heading(&nearest, Language::current());
         let title = title.unwrap_or_else(|| match found {

@@ -269,7 +269,7 @@ impl VerdictBlock {
         let is_unknown = verdict.is_unknown();
         let (reason, advice) = verdict.complaint().map(<(_, _)>::from).unzip();
         Self {
-            identification: verdict.identification(&recipe.accept),
+            identification: verdict.identification(),
             status: status_of(verdict),
             part: guess.clone().filter(|_| !is_unknown),
             nearest: guess.filter(|_| is_unknown),
