@@ -209,7 +209,7 @@ fn a_file_that_could_not_be_read_is_tried_again_though_it_looks_the_same() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("orders.csv");
     let mut file = OrdersFile::at(&path);
-    let at = SystemTime::now() - Duration::from_secs(60);
+    let at = SystemTime::now() - Duration::from_mins(1);
     let mut read = |bytes: &[u8]| {
         std::fs::write(&path, bytes).expect("written");
         let written = std::fs::File::options().write(true).open(&path);

@@ -264,7 +264,7 @@ fn as_part(ui: &mut Ui, inspected: &Inspected, headline: &Headline) {
     let Some(guess) = verdict.guess().filter(|_| verdict.is_named()) else {
         return;
     };
-    let found = verdict.identification(&inspected.recipe.accept);
+    let found = verdict.identification();
     if headline.state != HeadlineState::Open && !found.is_of_type() {
         let part = inspected.library.title_of(guess);
         heading(ui, &text!("inspect-as-part", part = part));
