@@ -65,7 +65,8 @@ pub(super) fn paint_fitted(painter: &Painter, texture: &TextureHandle, rect: Rec
     painter.image(texture.id(), at, whole, Color32::WHITE);
 }
 
-fn texture(ctx: &Context, name: &str, image: &RgbaImage) -> TextureHandle {
+/// Uploads a picture.
+pub(super) fn texture(ctx: &Context, name: &str, image: &RgbaImage) -> TextureHandle {
     let size = [image.width() as usize, image.height() as usize];
     let image = ColorImage::from_rgba_unmultiplied(size, image.as_raw());
     ctx.load_texture(name, image, TextureOptions::LINEAR)
