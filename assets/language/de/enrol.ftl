@@ -72,7 +72,7 @@ enrol-meshes-none = Kein Netz hat diese Wörter im Namen
 enrol-meshes-figures = { $size } · Dreiecke: { $triangles }
 enrol-meshes-enrol =
     { $count ->
-        [0] Einlernen
+        [0] Netze einlernen
         [one] { $count } Netz einlernen
        *[other] { $count } Netze einlernen
     }

@@ -72,7 +72,7 @@ enrol-meshes-none = No mesh has these words in its name
 enrol-meshes-figures = { $size } · triangles: { $triangles }
 enrol-meshes-enrol =
     { $count ->
-        [0] Enrol
+        [0] Enrol meshes
         [one] Enrol { $count } mesh
        *[other] Enrol { $count } meshes
     }

@@ -72,7 +72,7 @@ enrol-meshes-none = Ninguna malla tiene estas palabras en su nombre
 enrol-meshes-figures = { $size } · triángulos: { $triangles }
 enrol-meshes-enrol =
     { $count ->
-        [0] Registrar
+        [0] Registrar mallas
         [one] Registrar { $count } malla
        *[other] Registrar { $count } mallas
     }

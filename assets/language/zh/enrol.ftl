@@ -72,7 +72,7 @@ enrol-meshes-none = 没有名称包含这些文字的网格
 enrol-meshes-figures = { $size } · 三角形：{ $triangles }
 enrol-meshes-enrol =
     { $count ->
-        [0] 注册
+        [0] 注册网格
        *[other] 注册 { $count } 个网格
     }
 enrol-meshes-whole = 全部作为一个零件
