@@ -3,7 +3,7 @@
 use std::{
     collections::{BTreeMap, BTreeSet},
     ops::Range,
-    sync::Arc,
+    sync::{Arc, Weak},
 };
 
 use egui::{
@@ -16,7 +16,7 @@ use image::RgbaImage;
 
 use super::{
     EnrolAction, EnrolState,
-    meshes::{ListedMesh, MeshAction, MeshList, MeshOrder},
+    meshes::{ListedMesh, MeshAction, MeshList, MeshListing, MeshOrder},
     thumbnails::{paint_fitted, texture},
 };
 use files::import::LengthUnit;
@@ -49,7 +49,8 @@ const PAGE: i64 = 5;
 /// What the dialog keeps between frames.
 #[derive(Default)]
 pub(super) struct MeshDialog {
-    is_open: bool,
+    /// What is listed.
+    listing: Weak<MeshListing>,
     /// Textures of the visible pictures.
     textures: BTreeMap<usize, (Arc<RgbaImage>, TextureHandle)>,
     /// Number of the move by keys that was scrolled to.
@@ -73,6 +74,13 @@ impl MeshDialog {
             *self = Self::default();
             return;
         };
+        let is_new = self.listing.as_ptr() != Arc::as_ptr(list.listing());
+        if is_new {
+            *self = Self {
+                listing: Arc::downgrade(list.listing()),
+                ..Self::default()
+            };
+        }
         let mut caused = Vec::new();
         let modal = widgets::dialog(ctx, "meshes of a file", |ui| {
             ui.set_width(WIDTH);
@@ -80,8 +88,7 @@ impl MeshDialog {
             ui.heading(text!("enrol-meshes", file = list.title()));
             ui.weak(text!("enrol-meshes-hint"));
             ui.add_space(space::SMALL);
-            let is_searching = bar(ui, list, !self.is_open, &mut caused);
-            self.is_open = true;
+            let is_searching = bar(ui, list, is_new, &mut caused);
             let room = ctx.content_rect().height() - LIST_MARGIN;
             let room = room.max(2.0 * ROW_HEIGHT);
             let is_in_list = ui
