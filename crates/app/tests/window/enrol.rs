@@ -2,7 +2,7 @@
 
 mod drafts;
 mod drawing;
-mod meshes;
+pub(crate) mod meshes;
 
 use std::{fs, path::Path};
 

@@ -3,7 +3,7 @@ mod mutations;
 use std::fs;
 use std::path::PathBuf;
 
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
 use tempfile::TempDir;
 
 use super::*;
@@ -71,7 +71,7 @@ fn the_meshes_of_a_file_are_listed_with_the_paths_that_open_them() {
     let door = &listed.meshes[0];
     assert_eq!((door.name.as_str(), door.num_triangles()), ("Left door", 2));
     // Width, height and depth as the camera has them, in the unit of the file.
-    assert_eq!(door.size(), Some([1000.0, 200.0, 500.0].into()));
+    assert_eq!(door.size(), Some(Vector3::new(1000.0, 200.0, 500.0)));
     let ways = [
         (
             Some("Left door"),

@@ -10,17 +10,18 @@ use egui_kittest::{
 };
 use files::fixtures::obj_of;
 use geometry::mesh::TriangleMesh;
+use nalgebra::Point3;
 use simulate::{PartKind, PartModel, Side};
 
 use super::{library, names, notices, open, open_at, press_keys};
 use crate::set_up::{SMALL, WindowHarness, act_in, drop_file, enrol_of, press, settle};
 
 /// Writes a car of three parts and a line, which has no area.
-fn write_car(path: &Path) {
+pub(crate) fn write_car(path: &Path) {
     let kinds = [PartKind::Fender, PartKind::Grille, PartKind::TrunkLid];
     let [fender, grille, lid] = kinds.map(|kind| PartModel::new(kind, Side::Left, 0));
     let line = TriangleMesh {
-        vertices: [0.0, 0.1, 0.2].map(|x| [x, 0.0, 0.0].into()).into(),
+        vertices: [0.0, 0.1, 0.2].map(|x| Point3::new(x, 0.0, 0.0)).to_vec(),
         triangles: vec![[0, 1, 2]],
     };
     let text = obj_of(&[
