@@ -14,8 +14,8 @@ use super::{
     scan::{PosesChoice, open_scan},
 };
 use capture::CaptureWarning;
-use files::{self, FileContent};
-use geometry::{cloud::Grid, error::Advice as _};
+use files::{self, FileContent, FileError, NamedMesh};
+use geometry::{cloud::Grid, error::Advice as _, units::counted};
 use inspection::library::{
     EnrolError, EnrolParams, EnrolWarning, Enrolled, LibraryError, LibraryFolder, MAX_TITLE,
     PartDescription, PartName, SharedTitle, Side, enrol_captured, enrol_mesh, enrol_scan,
@@ -216,7 +216,12 @@ fn enrolled_from(
         return Ok((enrol_scan(&scan, &about, &params).advised()?, None));
     }
     let file = args.file.as_deref().expect("required without --scan");
-    let opened = files::open(file).advised()?;
+    let opened = files::open(file).inspect_err(|error| {
+        if let FileError::NeedsMeshName { .. } = error {
+            list_meshes(file, console);
+        }
+    });
+    let opened = opened.advised()?;
     let warnings: Vec<CaptureWarning> = opened.warnings().into_iter().map(Into::into).collect();
     warn_of(file, &warnings, console);
     let about = about(args, file, opened.is_simulated())?;
@@ -281,5 +286,37 @@ fn list_surfaces(scene: &SceneCloud, params: &EnrolParams, console: &Console) {
             between(columns.clone().min(), columns.max()),
             between(rows.clone().min(), rows.max()),
         ));
+    }
+}
+
+/// The most meshes listed: a whole car has thousands, and its body parts come first.
+const MAX_LISTED: usize = 30;
+
+/// Lists the meshes to choose from, with their sizes, the longest first.
+fn list_meshes(file: &Path, console: &Console) {
+    let Ok(Some(listed)) = files::meshes_in(file) else {
+        return;
+    };
+    let mm = 1000.0 * listed.options.unit.metres();
+    let longest = |named: &NamedMesh| named.size().map_or(0.0, |sides| sides.max());
+    let mut meshes: Vec<&NamedMesh> = listed.meshes.iter().collect();
+    meshes.sort_by(|a, b| longest(b).total_cmp(&longest(a)));
+    for named in meshes.iter().take(MAX_LISTED) {
+        let name = &named.name;
+        match (named.size(), &named.mesh) {
+            (_, Err(error)) => console.note(&format_args!("mesh {name}: {error}")),
+            (None, Ok(_)) => {}
+            (Some(sides), Ok(_)) => {
+                let [width, height, depth] = <[f32; 3]>::from(sides * mm);
+                let triangles = counted(named.num_triangles(), "triangle", "triangles");
+                console.note(&format_args!(
+                    "mesh {name}: {width:.0} x {height:.0} x {depth:.0} mm, {triangles}"
+                ));
+            }
+        }
+    }
+    let num_more = meshes.len().saturating_sub(MAX_LISTED);
+    if num_more > 0 {
+        console.note(&format_args!("and {num_more} more; the window lists all"));
     }
 }

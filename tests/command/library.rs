@@ -202,6 +202,31 @@ fn a_mesh_is_enrolled_but_is_no_scene() {
 }
 
 #[test]
+fn without_a_name_the_meshes_of_a_file_are_listed_the_longest_first() {
+    let place = Workplace::new();
+    let corners = [[0.0_f32, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.5, 0.0]];
+    let bytes = corners.as_flattened().iter().flat_map(|x| x.to_le_bytes());
+    let bytes: Vec<u8> = bytes.collect();
+    fs::write(place.path("car.bin"), bytes).expect("written");
+    let text = r#"{"asset":{"version":"2.0"},
+        "nodes":[{"name":"Door_FL","mesh":0},{"name":"Hood","mesh":0,"scale":[2,2,2]}],
+        "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+        "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,0.5,0]}],
+        "bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"byteLength":36,"uri":"car.bin"}]}"#;
+    fs::write(place.path("car.gltf"), text).expect("written");
+    let ran = place.run(&["enrol", "car.gltf", "--name", "hood", "--library", "parts"]);
+    assert_eq!(ran.code, 2);
+    let lines: Vec<&str> = ran.err.lines().collect();
+    let expected = [
+        "mesh Hood: 2000 x 1000 x 0 mm, 1 triangle",
+        "mesh Door_FL: 1000 x 500 x 0 mm, 1 triangle",
+    ];
+    assert_eq!(lines[..2], expected, "{}", ran.err);
+    assert!(ran.err.contains("car.gltf#Door_FL"), "{}", ran.err);
+    assert!(!place.path("parts").exists());
+}
+
+#[test]
 fn a_damaged_cloud_is_set_aside_by_its_checksum() {
     let place = Workplace::new();
     place.with_part("fender");

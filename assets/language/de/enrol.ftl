@@ -59,6 +59,29 @@ enrol-discard = Verwerfen
 enrol-saving = Wird gespeichert…
 enrol-save-and-replace = Speichern und ersetzen
 
+## The meshes of a file
+enrol-meshes = Netze in { $file }
+enrol-meshes-hint = Teile zum Einlernen wählen: Sie werden nacheinander zu Entwürfen
+enrol-meshes-find = Netz suchen
+enrol-meshes-find-hint = Wörter im Namen
+enrol-meshes-order = Sortieren nach { $order }
+enrol-meshes-size = Größe
+enrol-meshes-unit = Längen in { $unit }
+enrol-meshes-counted = { $shown } von { $count } Netzen
+enrol-meshes-none = Kein Netz hat diese Wörter im Namen
+enrol-meshes-figures = { $size } · Dreiecke: { $triangles }
+enrol-meshes-enrol =
+    { $count ->
+        [0] Netze einlernen
+        [one] { $count } Netz einlernen
+       *[other] { $count } Netze einlernen
+    }
+enrol-meshes-whole = Alles als ein Teil
+enrol-meshes-whole-hint = Die ganze Datei zeigt ein Teil
+enrol-mesh-number = Netz { $number } von { $count }
+enrol-mesh-skip = Auslassen
+enrol-mesh-leave-out = Übrige auslassen
+
 ## The card of an enrolled part
 enrol-rename = Umbenennen
 enrol-spray-path = Lackierbahn…

@@ -59,6 +59,29 @@ enrol-discard = Discard
 enrol-saving = Saving…
 enrol-save-and-replace = Save and replace
 
+## The meshes of a file
+enrol-meshes = Meshes of { $file }
+enrol-meshes-hint = Choose the parts to enrol: they become drafts one after the other
+enrol-meshes-find = Find a mesh
+enrol-meshes-find-hint = Words of its name
+enrol-meshes-order = Sort by { $order }
+enrol-meshes-size = Size
+enrol-meshes-unit = Lengths in { $unit }
+enrol-meshes-counted = { $shown } of { $count } meshes
+enrol-meshes-none = No mesh has these words in its name
+enrol-meshes-figures = { $size } · triangles: { $triangles }
+enrol-meshes-enrol =
+    { $count ->
+        [0] Enrol meshes
+        [one] Enrol { $count } mesh
+       *[other] Enrol { $count } meshes
+    }
+enrol-meshes-whole = All as one part
+enrol-meshes-whole-hint = The whole file shows one part
+enrol-mesh-number = Mesh { $number } of { $count }
+enrol-mesh-skip = Skip
+enrol-mesh-leave-out = Leave out the rest
+
 ## The card of an enrolled part
 enrol-rename = Rename
 enrol-spray-path = Spray path…

@@ -59,6 +59,29 @@ enrol-discard = Descartar
 enrol-saving = Guardando…
 enrol-save-and-replace = Guardar y sustituir
 
+## The meshes of a file
+enrol-meshes = Mallas de { $file }
+enrol-meshes-hint = Elegir las piezas que se registran: pasan a ser borradores una tras otra
+enrol-meshes-find = Buscar una malla
+enrol-meshes-find-hint = Palabras de su nombre
+enrol-meshes-order = Ordenar por { $order }
+enrol-meshes-size = Tamaño
+enrol-meshes-unit = Longitudes en { $unit }
+enrol-meshes-counted = { $shown } de { $count } mallas
+enrol-meshes-none = Ninguna malla tiene estas palabras en su nombre
+enrol-meshes-figures = { $size } · triángulos: { $triangles }
+enrol-meshes-enrol =
+    { $count ->
+        [0] Registrar mallas
+        [one] Registrar { $count } malla
+       *[other] Registrar { $count } mallas
+    }
+enrol-meshes-whole = Todo como una pieza
+enrol-meshes-whole-hint = Todo el archivo muestra una sola pieza
+enrol-mesh-number = Malla { $number } de { $count }
+enrol-mesh-skip = Omitir
+enrol-mesh-leave-out = Omitir las demás
+
 ## The card of an enrolled part
 enrol-rename = Cambiar nombre
 enrol-spray-path = Trayectoria de pintura…

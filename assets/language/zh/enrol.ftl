@@ -59,6 +59,28 @@ enrol-discard = 放弃
 enrol-saving = 正在保存…
 enrol-save-and-replace = 保存并替换
 
+## The meshes of a file
+enrol-meshes = { $file } 中的网格
+enrol-meshes-hint = 选择要注册的零件：依次成为草稿
+enrol-meshes-find = 查找网格
+enrol-meshes-find-hint = 名称中的文字
+enrol-meshes-order = 按{ $order }排序
+enrol-meshes-size = 尺寸
+enrol-meshes-unit = 长度单位：{ $unit }
+enrol-meshes-counted = { $shown } / { $count } 个网格
+enrol-meshes-none = 没有名称包含这些文字的网格
+enrol-meshes-figures = { $size } · 三角形：{ $triangles }
+enrol-meshes-enrol =
+    { $count ->
+        [0] 注册网格
+       *[other] 注册 { $count } 个网格
+    }
+enrol-meshes-whole = 全部作为一个零件
+enrol-meshes-whole-hint = 整个文件只表示一个零件
+enrol-mesh-number = 第 { $number } / { $count } 个网格
+enrol-mesh-skip = 略过
+enrol-mesh-leave-out = 略过其余
+
 ## The card of an enrolled part
 enrol-rename = 重命名
 enrol-spray-path = 喷涂轨迹…

@@ -1,5 +1,27 @@
 //! What tests of this crate and of those above it build.
 
+use std::fmt::Write as _;
+
+use geometry::mesh::TriangleMesh;
+
+/// Returns an OBJ with these objects.
+pub fn obj_of(objects: &[(&str, &TriangleMesh)]) -> String {
+    let mut text = String::new();
+    let mut num_before = 1;
+    for (name, mesh) in objects {
+        writeln!(text, "o {name}").expect("written");
+        for vertex in &mesh.vertices {
+            writeln!(text, "v {} {} {}", vertex.x, vertex.y, vertex.z).expect("written");
+        }
+        for corners in &mesh.triangles {
+            let [a, b, c] = corners.map(|corner| corner + num_before);
+            writeln!(text, "f {a} {b} {c}").expect("written");
+        }
+        num_before += mesh.vertices.len() as u32;
+    }
+    text
+}
+
 /// Returns the fields below this heading of a CSV table without line breaks in its fields.
 pub fn csv_column(table: &str, heading: &str) -> Vec<String> {
     let mut rows = table.lines().map(csv_fields);

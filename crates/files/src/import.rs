@@ -5,7 +5,7 @@
 
 use std::path::{Path, PathBuf};
 
-use nalgebra::Vector3;
+use nalgebra::{Point3, Vector3};
 
 use super::content::FileContent;
 use geometry::error::Advice;
@@ -48,7 +48,8 @@ impl LengthUnit {
         Self::ALL.into_iter().find(|unit| unit.name() == name)
     }
 
-    fn metres(self) -> f32 {
+    /// Returns its length in metres.
+    pub fn metres(self) -> f32 {
         match self {
             Self::Metres => 1.0,
             Self::Centimetres => 0.01,
@@ -138,20 +139,25 @@ impl ImportOptions {
         [unit, up].into_iter().flatten().flatten().collect()
     }
 
+    /// Converts points to metres and camera space.
+    pub fn convert(self, points: &mut [Point3<f32>]) {
+        let scale = self.unit.metres();
+        for point in points {
+            point.coords = self.up.to_camera(point.coords * scale);
+        }
+    }
+
     /// Converts the content to metres and camera space. A depth image already is.
     pub(super) fn applied(self, mut content: FileContent) -> FileContent {
         if self == Self::default() {
             return content;
         }
-        let scale = self.unit.metres();
         let (points, normals) = match &mut content {
             FileContent::Cloud(cloud) => (&mut cloud.points, cloud.normals.as_mut()),
             FileContent::Mesh(mesh) => (&mut mesh.vertices, None),
             FileContent::Depth(_) => return content,
         };
-        for point in points {
-            point.coords = self.up.to_camera(point.coords * scale);
-        }
+        self.convert(points);
         for normal in normals.into_iter().flatten() {
             *normal = self.up.to_camera(*normal);
         }
@@ -185,8 +191,6 @@ pub(super) fn split_words(path: &Path) -> (PathBuf, Option<String>) {
 #[cfg(test)]
 mod tests {
     use std::fs;
-
-    use nalgebra::Point3;
 
     use super::*;
     use crate::{FileError, FileWarning, open};

@@ -10,6 +10,7 @@ use nalgebra::Point3;
 
 use super::content::FileContent;
 use super::error::FileError;
+use super::named_meshes::NamedMesh;
 use super::readings::tidy;
 use super::source::Source;
 use super::surface::{Triangulation, checked_mesh, point_of};
@@ -31,10 +32,91 @@ pub(super) fn is_obj(source: Source<'_>) -> bool {
 }
 
 pub(super) fn read(source: Source<'_>, wanted: Option<&str>) -> Result<FileContent, FileError> {
-    let mut points = Vec::new();
-    let mut objects: Vec<String> = Vec::new();
+    let Statements {
+        points,
+        mut triangles,
+        objects,
+        ..
+    } = parse(source, wanted)?;
+    if let Some(wanted) = wanted {
+        if !objects.iter().any(|name| name == wanted) {
+            return Err(FileError::NoSuchMesh {
+                path: source.path.to_owned(),
+                wanted: wanted.to_owned(),
+                available: objects,
+            });
+        }
+        let points = keep_used(&points, &mut triangles);
+        return checked_mesh(source, points, triangles).map(FileContent::Mesh);
+    }
+    if triangles.is_empty() {
+        tidy(
+            PointCloud {
+                points,
+                ..PointCloud::default()
+            },
+            source,
+        )
+        .map(FileContent::Cloud)
+    } else {
+        checked_mesh(source, points, triangles).map(FileContent::Mesh)
+    }
+}
+
+/// Reads every object for itself, in the file's order; none if fewer than two have a surface.
+pub(super) fn read_each(source: Source<'_>) -> Result<Vec<NamedMesh>, FileError> {
+    let begins_object = |line: &str| line.split_whitespace().next() == Some("o");
+    let begun = source.lines().filter(|(_, line)| begins_object(line));
+    if begun.count() < 2 {
+        return Ok(Vec::new());
+    }
+    let Statements {
+        points,
+        triangles,
+        objects,
+        stretches,
+    } = parse(source, None)?;
+    let mut of_object: Vec<Vec<[u32; 3]>> = vec![Vec::new(); objects.len()];
+    let begins = stretches.iter().skip(1).map(|(_, first)| *first);
+    let ends = begins.chain([triangles.len()]);
+    for ((object, first), end) in stretches.iter().zip(ends) {
+        of_object[*object].extend_from_slice(&triangles[*first..end]);
+    }
+    let with_surface = of_object.iter().filter(|triangles| !triangles.is_empty());
+    if with_surface.count() < 2 {
+        return Ok(Vec::new());
+    }
+    let meshes = objects.into_iter().zip(of_object);
+    let meshes = meshes.map(|(name, mut triangles)| {
+        let points = keep_used(&points, &mut triangles);
+        let mesh = checked_mesh(source, points, triangles);
+        NamedMesh { name, mesh }
+    });
+    Ok(meshes.collect())
+}
+
+/// What the statements of a file say.
+#[derive(Default)]
+struct Statements {
+    points: Vec<Point3<f32>>,
+    /// Only those of the object that is asked for, if one is.
+    triangles: Vec<[u32; 3]>,
+    /// The names of the objects, each once.
+    objects: Vec<String>,
+    /// Object and first triangle of what follows each `o`.
+    stretches: Vec<(usize, usize)>,
+}
+
+fn parse(source: Source<'_>, wanted: Option<&str>) -> Result<Statements, FileError> {
+    let mut all = Statements::default();
+    let Statements {
+        points,
+        triangles,
+        objects,
+        stretches,
+    } = &mut all;
+    let mut places: HashMap<String, usize> = HashMap::new();
     let mut is_wanted = wanted.is_none();
-    let mut triangles = Vec::new();
     let mut triangulation = Triangulation::default();
     let mut statement = String::new();
     for (number, line) in source.lines() {
@@ -68,44 +150,25 @@ pub(super) fn read(source: Source<'_>, wanted: Option<&str>) -> Result<FileConte
                     )
                 })?;
                 if is_wanted {
-                    triangulation.push(source, &polygon, &points, &mut triangles)?;
+                    triangulation.push(source, &polygon, points, triangles)?;
                     source.limited("triangles", triangles.len())?;
                 }
             }
             Some("o") => {
                 let name = statement.trim_start().trim_start_matches('o').trim();
                 is_wanted = wanted.is_none_or(|wanted| wanted == name);
-                if !objects.iter().any(|known| known == name) {
+                let next = objects.len();
+                let place = *places.entry(name.to_owned()).or_insert(next);
+                if place == next {
                     objects.push(name.to_owned());
                 }
+                stretches.push((place, triangles.len()));
             }
             _ => {}
         }
         statement.clear();
     }
-    if let Some(wanted) = wanted {
-        if !objects.iter().any(|name| name == wanted) {
-            return Err(FileError::NoSuchMesh {
-                path: source.path.to_owned(),
-                wanted: wanted.to_owned(),
-                available: objects,
-            });
-        }
-        let points = keep_used(&points, &mut triangles);
-        return checked_mesh(source, points, triangles).map(FileContent::Mesh);
-    }
-    if triangles.is_empty() {
-        tidy(
-            PointCloud {
-                points,
-                ..PointCloud::default()
-            },
-            source,
-        )
-        .map(FileContent::Cloud)
-    } else {
-        checked_mesh(source, points, triangles).map(FileContent::Mesh)
-    }
+    Ok(all)
 }
 
 /// Returns the points that the triangles use, and renumbers the triangles.
@@ -174,6 +237,38 @@ mod tests {
             panic!("expected a mesh");
         };
         assert_eq!(whole.triangles.len(), 3);
+    }
+
+    #[test]
+    fn each_of_several_objects_is_read_as_by_its_name() {
+        let each = |text: &str| {
+            let source = Source {
+                path: Path::new("test.obj"),
+                bytes: text.as_bytes(),
+            };
+            read_each(source).unwrap()
+        };
+        // The second stretch of the door comes after the hood.
+        let text = "v 0 0 0\nv 1 0 0\nv 0 2 0\nv 0 0 3\no Door\nf 1 2 3\no Hood\nf 1 2 4\no Door\nf 1 3 4\n\
+                    o Axis\nl 1 2\n";
+        let several = each(text);
+        let names: Vec<&str> = several.iter().map(|named| named.name.as_str()).collect();
+        assert_eq!(names, ["Door", "Hood", "Axis"]);
+        for named in &several[..2] {
+            let alone = read_object(text, Some(&named.name)).unwrap();
+            assert_eq!(
+                alone,
+                FileContent::Mesh(named.mesh.as_ref().unwrap().clone())
+            );
+        }
+        let counted: Vec<usize> = several.iter().map(NamedMesh::num_triangles).collect();
+        assert_eq!(counted, [2, 1, 0]);
+        assert!(matches!(
+            several[2].mesh,
+            Err(FileError::NoTriangles { .. })
+        ));
+        let one_part = text.replace("f 1 2 4", "l 1 4");
+        assert!(each(&one_part).is_empty());
     }
 
     #[test]

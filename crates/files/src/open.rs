@@ -1,11 +1,12 @@
 //! Opening of any file: finds it, recognises its format and calls its reader.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
 use super::content::{FileContent, is_before_camera, is_capture};
 use super::error::{FileError, NoFile};
 use super::import::{ImportOptions, file_of, split_words};
+use super::named_meshes::MeshFile;
 use super::source::{Source, read_bytes};
 use super::{depth_png, gltf, obj, pcd, ply, stl, xyz};
 use geometry::cloud::PointCloud;
@@ -16,32 +17,102 @@ use geometry::error::guarded;
 /// `#` and a name after the path select one mesh of a glTF or GLB file, or one object of an OBJ: `car.gltf#Door_FL`. [`ImportOptions`] for a cloud or
 /// a mesh are given in the same way: `door.stl#units=mm#up=z`. A file whose own name contains a `#` takes precedence.
 pub fn open(path: &Path) -> Result<FileContent, FileError> {
-    let (file, words) = split_words(path);
-    let mut options = ImportOptions::default();
-    let mut mesh_name: Option<String> = None;
-    for word in words.iter().flat_map(|words| words.split('#')) {
-        let is_option = options.take(word).map_err(|bad| FileError::ImportOption {
-            path: file.clone(),
-            bad,
-        })?;
-        if !is_option {
-            // The name may contain a `#`.
-            mesh_name = Some(mesh_name.map_or_else(|| word.to_owned(), |name| name + "#" + word));
+    let asked = AskedFile::of(path)?;
+    let content = read(
+        &asked.file,
+        &bytes_of(&asked.file)?,
+        asked.mesh_name.as_deref(),
+    )?;
+    Ok(match asked.options.applied(content) {
+        FileContent::Mesh(mesh) if is_capture(&mesh) && is_before_camera(&mesh) => {
+            FileContent::Cloud(PointCloud::from_points(mesh.vertices))
         }
+        content => content,
+    })
+}
+
+/// Reads every mesh of a glTF, or every object of an OBJ, for itself. `None` if the path names one of them, or if there are
+/// not several.
+pub fn meshes_in(path: &Path) -> Result<Option<MeshFile>, FileError> {
+    let AskedFile {
+        file,
+        options,
+        mesh_name,
+    } = AskedFile::of(path)?;
+    if mesh_name.is_some() {
+        return Ok(None);
     }
-    let bytes = read_bytes(&file).map_err(|error| match error {
+    let bytes = bytes_of(&file)?;
+    let source = Source {
+        path: &file,
+        bytes: &bytes,
+    };
+    let (mut meshes, opens_whole) = without_panic(&file, || match recognise(source)? {
+        Format::Gltf => Ok((gltf::read_each(source)?, false)),
+        Format::Obj => Ok((obj::read_each(source)?, true)),
+        Format::Pcd | Format::Ply | Format::Stl | Format::DepthPng | Format::Xyz => {
+            Ok((Vec::new(), false))
+        }
+    })?;
+    if meshes.is_empty() {
+        return Ok(None);
+    }
+    let axes = ImportOptions {
+        up: options.up,
+        ..ImportOptions::default()
+    };
+    for mesh in meshes
+        .iter_mut()
+        .filter_map(|named| named.mesh.as_mut().ok())
+    {
+        axes.convert(&mut mesh.vertices);
+    }
+    Ok(Some(MeshFile {
+        file,
+        options,
+        meshes,
+        opens_whole,
+    }))
+}
+
+/// A path, split into the file and what the words behind it ask for.
+struct AskedFile {
+    file: PathBuf,
+    options: ImportOptions,
+    mesh_name: Option<String>,
+}
+
+impl AskedFile {
+    fn of(path: &Path) -> Result<Self, FileError> {
+        let (file, words) = split_words(path);
+        let mut options = ImportOptions::default();
+        let mut mesh_name: Option<String> = None;
+        for word in words.iter().flat_map(|words| words.split('#')) {
+            let is_option = options.take(word).map_err(|bad| FileError::ImportOption {
+                path: file.clone(),
+                bad,
+            })?;
+            if !is_option {
+                // The name may contain a `#`.
+                mesh_name =
+                    Some(mesh_name.map_or_else(|| word.to_owned(), |name| name + "#" + word));
+            }
+        }
+        Ok(Self {
+            file,
+            options,
+            mesh_name,
+        })
+    }
+}
+
+fn bytes_of(file: &Path) -> Result<Vec<u8>, FileError> {
+    read_bytes(file).map_err(|error| match error {
         FileError::NotAFile {
             path,
             found: NoFile::Folder,
         } => FileError::FolderOfCaptures { path },
         error => error,
-    })?;
-    let content = read(&file, &bytes, mesh_name.as_deref())?;
-    Ok(match options.applied(content) {
-        FileContent::Mesh(mesh) if is_capture(&mesh) && is_before_camera(&mesh) => {
-            FileContent::Cloud(PointCloud::from_points(mesh.vertices))
-        }
-        content => content,
     })
 }
 

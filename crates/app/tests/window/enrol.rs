@@ -2,6 +2,7 @@
 
 mod drafts;
 mod drawing;
+pub(crate) mod meshes;
 
 use std::{fs, path::Path};
 
@@ -14,7 +15,7 @@ use app::{
 };
 use egui::{Key, Modifiers, Pos2, Role, Vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
-use files::save_cloud;
+use files::{fixtures::obj_of, save_cloud};
 use inspection::{
     library::{LibraryFolder, PartName},
     pipeline::Verdict,
@@ -160,16 +161,8 @@ fn pass_time(harness: &mut WindowHarness) {
 }
 
 fn write_mesh(path: &Path, kind: PartKind) {
-    use std::fmt::Write as _;
     let model = PartModel::new(kind, Side::Left, 0);
-    let mesh = model.mesh();
-    let mut text = String::new();
-    for vertex in &mesh.vertices {
-        writeln!(text, "v {} {} {}", vertex.x, vertex.y, vertex.z).expect("written");
-    }
-    for [a, b, c] in &mesh.triangles {
-        writeln!(text, "f {} {} {}", a + 1, b + 1, c + 1).expect("written");
-    }
+    let text = obj_of(&[("part", model.mesh())]);
     std::fs::write(path, text).expect("written");
 }
 

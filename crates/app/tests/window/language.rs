@@ -3,7 +3,11 @@
 use app::{
     WindowOptions,
     workspaces::{
-        enrol::{EnrolAction, EnrolWorkspace, draft::Field},
+        enrol::{
+            EnrolAction, EnrolWorkspace,
+            draft::Field,
+            meshes::{MeshAction, MeshOrder},
+        },
         history::{HistoryAction, HistoryWorkspace, ListFilter},
     },
 };
@@ -25,10 +29,11 @@ use shell::{
 use ui::language::Language;
 
 use super::{
+    enrol::meshes::write_car,
     live::{Step, sees, wired_options},
     set_up::{
-        SMALL, USUAL, WindowHarness, act, act_in, enrol_of, open_with, plain_options, press,
-        settle, wait_until,
+        SMALL, USUAL, WindowHarness, act, act_in, drop_file, enrol_of, open_with, plain_options,
+        press, settle, wait_until,
     },
 };
 use records::fixtures::{history_entry, low_score, refuse};
@@ -563,6 +568,38 @@ fn in_every_language_the_page_of_robots_that_ask_fits_where_it_does_in_english()
     for language in [Language::German, Language::Spanish, Language::Chinese] {
         let wrong = only_here(shown(language), &usual);
         assert!(wrong.is_empty(), "{language:?}: {}", wrong.join("\n"));
+    }
+}
+
+#[test]
+fn in_every_language_the_list_of_meshes_and_a_draft_of_several_fit_where_they_do_in_english() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("car.obj");
+    write_car(&path);
+    let shown = |language: Language| {
+        let mut harness = open_in(language, SMALL);
+        act(&mut harness, Action::GoTo(WorkspaceKind::Enrol));
+        drop_file(&mut harness, &path);
+        let list = misfits(&harness);
+        for action in [
+            MeshAction::Order(MeshOrder::Name),
+            MeshAction::Tick(0),
+            MeshAction::Tick(1),
+            MeshAction::Enrol(None),
+        ] {
+            act_in(&mut harness, |enrol: &mut EnrolWorkspace, cx| {
+                enrol.state.apply(EnrolAction::Meshes(action), cx);
+            });
+        }
+        assert!(enrol_of(&harness).draft.is_some());
+        [list, misfits(&harness)]
+    };
+    let usual = shown(Language::English);
+    for language in [Language::German, Language::Spanish, Language::Chinese] {
+        for (found, usual) in shown(language).into_iter().zip(&usual) {
+            let wrong = only_here(found, usual);
+            assert!(wrong.is_empty(), "{language:?}: {}", wrong.join("\n"));
+        }
     }
 }
 

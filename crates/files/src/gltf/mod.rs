@@ -13,7 +13,7 @@
 
 mod buffers;
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 use ::gltf::json::Root;
 use ::gltf::mesh::Mode;
@@ -21,6 +21,7 @@ use ::gltf::{Document, Mesh, Node, Primitive, Semantic};
 use nalgebra::{Matrix4, Point3};
 
 use super::error::FileError;
+use super::named_meshes::NamedMesh;
 use super::source::Source;
 use super::surface::{checked_mesh, push_fan};
 use geometry::mesh::TriangleMesh;
@@ -42,27 +43,74 @@ pub(super) fn is_json(bytes: &[u8]) -> bool {
 }
 
 pub(super) fn read(source: Source<'_>, wanted: Option<&str>) -> Result<TriangleMesh, FileError> {
+    let (document, blob) = document_of(source)?;
+    let placed = placed_meshes(source, &document)?;
+    let chosen = choose(source, placed, wanted)?;
+    joined(source, &mut buffers_of(source, &document, blob), &chosen)
+}
+
+/// Reads every mesh for itself, in the file's order; none if the file is opened without a name.
+pub(super) fn read_each(source: Source<'_>) -> Result<Vec<NamedMesh>, FileError> {
+    let (document, blob) = document_of(source)?;
+    let placed = placed_meshes(source, &document)?;
+    if placed.len() < 2 {
+        return Ok(Vec::new());
+    }
+    let mut places = HashMap::new();
+    let mut named: Vec<(String, Vec<PlacedMesh<'_>>)> = Vec::new();
+    for mesh in placed {
+        let next = named.len();
+        let place = *places.entry(mesh.name.clone()).or_insert(next);
+        if place == next {
+            named.push((mesh.name.clone(), Vec::new()));
+        }
+        named[place].1.push(mesh);
+    }
+    let mut buffers = buffers_of(source, &document, blob);
+    let mut num_read = 0;
+    let mut meshes = Vec::with_capacity(named.len());
+    for (name, placed) in named {
+        let mesh = joined(source, &mut buffers, &placed);
+        if let Ok(mesh) = &mesh {
+            num_read += mesh.vertices.len() + mesh.triangles.len();
+            source.affordable(num_read, size_of::<[u32; 3]>())?;
+        }
+        meshes.push(NamedMesh { name, mesh });
+    }
+    Ok(meshes)
+}
+
+/// Returns the document, and the binary chunk of a GLB.
+fn document_of(source: Source<'_>) -> Result<(Document, Option<&[u8]>), FileError> {
     let (json, blob) = if is_glb(source.bytes) {
         split_glb(source)?
     } else {
         (source.bytes, None)
     };
-    let document = parse(source, json)?;
-    let placed = placed_meshes(source, &document)?;
-    let chosen = choose(source, placed, wanted)?;
+    Ok((parse(source, json)?, blob))
+}
+
+fn buffers_of<'a>(source: Source<'a>, document: &Document, blob: Option<&'a [u8]>) -> Buffers<'a> {
     let mut extensions = document.extensions_used();
     let is_quantised = extensions.any(|name| name == "KHR_mesh_quantization");
-    let mut buffers = Buffers::new(source, blob, is_quantised);
+    Buffers::new(source, blob, is_quantised)
+}
+
+/// Reads these meshes as one.
+fn joined(
+    source: Source<'_>,
+    buffers: &mut Buffers<'_>,
+    chosen: &[PlacedMesh<'_>],
+) -> Result<TriangleMesh, FileError> {
     let mut whole = TriangleMesh::default();
     for PlacedMesh {
         mesh,
         scene_from_mesh,
         ..
-    } in &chosen
+    } in chosen
     {
         for primitive in mesh.primitives() {
-            let Some(part) = read_primitive(source, &mut buffers, &primitive, scene_from_mesh)?
-            else {
+            let Some(part) = read_primitive(source, buffers, &primitive, scene_from_mesh)? else {
                 continue;
             };
             let num_vertices = whole.vertices.len() + part.vertices.len();

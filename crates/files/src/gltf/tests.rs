@@ -123,6 +123,33 @@ fn without_a_name_or_with_a_wrong_one_the_names_are_listed() {
 }
 
 #[test]
+fn each_of_several_meshes_is_read_as_by_its_name() {
+    let each = |text: &str| {
+        let source = Source {
+            path: Path::new("test.gltf"),
+            bytes: text.as_bytes(),
+        };
+        read_each(source).unwrap()
+    };
+    let several = each(&embedded());
+    let names: Vec<&str> = several.iter().map(|named| named.name.as_str()).collect();
+    assert_eq!(names, ["Left", "Right"]);
+    for named in &several {
+        let alone = read_bytes(embedded().as_bytes(), Some(&named.name)).unwrap();
+        assert_eq!(*named.mesh.as_ref().unwrap(), alone, "{}", named.name);
+    }
+    // Meshes of one name are one.
+    let twins = each(&embedded().replace("\"Right\"", "\"Left\""));
+    assert_eq!((twins.len(), twins[0].num_triangles()), (1, 2));
+    // One without a surface does not keep the others from being read.
+    let bare = each(&embedded().replace(r#""indices":1}"#, r#""indices":1,"mode":1}"#));
+    assert!(matches!(bare[0].mesh, Err(FileError::NoTriangles { .. })));
+    assert_eq!((bare[0].size(), bare[0].num_triangles()), (None, 0));
+    assert_eq!(bare[1].num_triangles(), 1);
+    assert!(each(&embedded().replace("[0,1]", "[1]")).is_empty());
+}
+
+#[test]
 fn a_buffer_beside_the_file_is_found_and_no_other() {
     let folder = tempfile::tempdir().unwrap();
     let inner = folder.path().join("inner");

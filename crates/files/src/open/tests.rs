@@ -3,10 +3,11 @@ mod mutations;
 use std::fs;
 use std::path::PathBuf;
 
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
 use tempfile::TempDir;
 
 use super::*;
+use crate::import::LengthUnit;
 use crate::{Expected, FileWarning, read_text};
 use geometry::error::Advice as _;
 use geometry::fixtures::small_frame;
@@ -57,6 +58,42 @@ fn a_format_is_known_by_its_content_whatever_the_name() {
                 "{name}"
             );
         }
+    }
+}
+
+#[test]
+fn the_meshes_of_a_file_are_listed_with_the_paths_that_open_them() {
+    let two = "o Left door\nv 0 0 0\nv 1000 0 0\nv 0 500 0\nv 0 0 200\nf 1 2 3\nf 1 2 4\no Hood\nf 1 3 4\n";
+    let (_folder, path) = file("car.obj", two.as_bytes());
+    let with = |words: &str| PathBuf::from(format!("{}{words}", path.display()));
+    let listed = meshes_in(&with("#up=z")).unwrap().expect("several");
+    assert!(listed.opens_whole);
+    let door = &listed.meshes[0];
+    assert_eq!((door.name.as_str(), door.num_triangles()), ("Left door", 2));
+    // Width, height and depth as the camera has them, in the unit of the file.
+    assert_eq!(door.size(), Some(Vector3::new(1000.0, 200.0, 500.0)));
+    let ways = [
+        (
+            Some("Left door"),
+            LengthUnit::Millimetres,
+            "#Left door#units=mm#up=z",
+        ),
+        (None, LengthUnit::Metres, "#up=z"),
+    ];
+    for (named, unit, words) in ways {
+        let opened = listed.path_of(named, unit);
+        assert_eq!(opened, with(words));
+        let FileContent::Mesh(mesh) = open(&opened).unwrap() else {
+            panic!("{opened:?}");
+        };
+        assert_eq!(mesh.triangles.len(), if named.is_some() { 2 } else { 3 });
+        let (low, high) = mesh.bounds().expect("some");
+        assert!(((high - low).x - 1000.0 * unit.metres()).abs() < 1e-3);
+    }
+    assert!(meshes_in(&with("#Hood")).unwrap().is_none());
+    for other in [OBJ.as_bytes(), STL.as_bytes(), PCD.as_bytes()] {
+        let (_folder, path) = file("one", other);
+        assert!(meshes_in(&path).unwrap().is_none());
     }
 }
 

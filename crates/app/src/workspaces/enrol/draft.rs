@@ -5,6 +5,7 @@ use std::sync::{Arc, Weak};
 use serde::{Deserialize, Serialize};
 
 use super::{
+    meshes::ChosenMesh,
     selection::{Corrections, Selection},
     subject::EnrolInput,
     work::Checked,
@@ -32,6 +33,8 @@ pub struct Draft {
     pub form: Form,
     /// The form as it was until that of a part to replace took its place.
     pub(super) form_before: Option<Form>,
+    /// The mesh that it is, if it was chosen among those of a file.
+    pub chosen: Option<ChosenMesh>,
     /// The scene that Inspect showed when the draft was taken, if any.
     pub(super) in_front: Weak<SceneCloud>,
 }
@@ -40,6 +43,11 @@ impl Draft {
     /// The part that would be stored, if known and possible.
     pub fn ready(&self) -> Option<&Arc<Checked>> {
         self.checked.as_ref()?.as_ref().ok()
+    }
+
+    /// The mesh to be taken once this draft is saved or skipped.
+    pub(super) fn following(&self) -> Option<ChosenMesh> {
+        self.chosen.as_ref()?.following()
     }
 
     /// The enrolled reference hardest to tell from the draft, other than the one that it replaces and those of its own part.
@@ -110,6 +118,13 @@ impl Form {
             notes: words.notes,
             named_by: NamedBy::Person,
         }
+    }
+
+    /// Returns the form of a part with this title.
+    pub(super) fn titled(title: &str, library: Option<&LibraryView>) -> Self {
+        let mut form = Self::default();
+        form.write(Field::Title(title.to_owned()), library);
+        form
     }
 
     /// Fills in a field; until a name is entered, it follows the title.

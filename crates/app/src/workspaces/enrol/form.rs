@@ -8,6 +8,7 @@ use super::{
     EnrolAction, EnrolState,
     draft::{Draft, Field, Form},
     fields::{self, complaint, remark},
+    meshes::ChosenMesh,
     thumbnails::Thumbnails,
     title_of,
 };
@@ -62,6 +63,7 @@ pub(super) fn ui(
             let text = RichText::new(text!("enrol-previous-draft"));
             ui.label(text.font(font::body_strong()).color(theme.warning));
         }
+        place_among_meshes(ui, draft, actions);
         stored(ui, draft, enrol, session, thumbnails, actions);
         if let Some(field) = fields::ui(ui, &draft.form) {
             actions.push(EnrolAction::Write(field));
@@ -88,6 +90,18 @@ fn what_save_does(enrol: &EnrolState, session: &Session) -> String {
         || text!("enrol-new-part"),
         |title| text!("enrol-replaces", part = title),
     )
+}
+
+/// Draws which of several chosen meshes the draft is, and the button to enrol none of the others.
+fn place_among_meshes(ui: &mut Ui, draft: &Draft, actions: &mut Vec<EnrolAction>) {
+    let numbers = draft.chosen.as_ref().map(ChosenMesh::number_of_all);
+    let Some([number, count]) = numbers.filter(|[_, count]| *count > 1) else {
+        return;
+    };
+    ui.label(text!("enrol-mesh-number", number = number, count = count));
+    if draft.following().is_some() && text_button(ui, &text!("enrol-mesh-leave-out")).clicked() {
+        actions.push(EnrolAction::LeaveOutRest);
+    }
 }
 
 /// Draws the button that stops replacing a part.
@@ -320,7 +334,11 @@ fn buttons(
     let size = vec2(ui.available_width(), 44.0);
     ui.allocate_ui_with_layout(size, Layout::right_to_left(Align::Center), |ui| {
         ui.set_min_height(44.0);
-        if text_button(ui, &text!("enrol-discard")).clicked() {
+        let discard = match draft.following() {
+            Some(_) => text!("enrol-mesh-skip"),
+            None => text!("enrol-discard"),
+        };
+        if text_button(ui, &discard).clicked() {
             actions.push(EnrolAction::Discard);
         }
         let text = match (enrol.is_changing_library(), is_replacing) {

@@ -4,6 +4,7 @@
 //! subject    what a part is enrolled from        segments, picture_plane, scanned
 //! selection  what of it is kept, as corrected     outline, picture, tools, view
 //! draft      the part as it would be stored       taking, fields, form, kept
+//! meshes     which of a file's meshes are drafts  mesh_list
 //! change     a change of the library              undo, catalogue, card
 //! ```
 
@@ -14,6 +15,8 @@ pub mod draft;
 mod fields;
 mod form;
 mod kept;
+mod mesh_list;
+pub mod meshes;
 pub mod outline;
 mod picture;
 pub mod picture_plane;
@@ -38,8 +41,8 @@ use egui::{
 
 pub use self::state::{DraftPanes, EnrolAction, EnrolFile, EnrolState};
 use self::{
-    catalogue::Catalogue, draft::Draft, kept::DraftFile, picture::PicturePane,
-    thumbnails::Thumbnails, view::DraftView,
+    catalogue::Catalogue, draft::Draft, kept::DraftFile, mesh_list::MeshDialog,
+    picture::PicturePane, thumbnails::Thumbnails, view::DraftView,
 };
 use crate::shots::{ShotList, ShownShots, StripTab};
 use shell::{
@@ -89,6 +92,7 @@ struct Panes {
     thumbnails: Thumbnails,
     catalogue: Catalogue,
     shots: ShotList,
+    meshes: MeshDialog,
 }
 
 impl EnrolWorkspace {
@@ -108,6 +112,7 @@ impl EnrolWorkspace {
                 thumbnails: Thumbnails::default(),
                 catalogue: Catalogue::default(),
                 shots: ShotList::default(),
+                meshes: MeshDialog::default(),
             },
         }
     }
@@ -182,7 +187,9 @@ impl Workspace for EnrolWorkspace {
     }
 
     fn is_idle(&self, _session: &Session) -> bool {
-        let is_at_work = self.running().is_some() || self.state.is_changing_library();
+        let state = &self.state;
+        let is_changing = state.is_changing_library() || state.is_drawing_meshes();
+        let is_at_work = self.running().is_some() || is_changing;
         !is_at_work && self.file.is_idle()
     }
 }
@@ -198,6 +205,7 @@ impl Panes {
         let library = session.library.as_ref();
         let checked = enrol.draft.as_ref().and_then(Draft::ready);
         self.thumbnails.make(ui.ctx(), library, checked);
+        self.meshes.ui(ui.ctx(), enrol, session, actions);
         side_panel(
             ui,
             "enrol card",

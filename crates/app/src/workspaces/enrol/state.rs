@@ -8,6 +8,7 @@ use crate::{
         change::{Changed, LibraryChange},
         draft::{Draft, Field, Form, OpenedPart},
         kept::KeptDraft,
+        meshes::{MeshAction, MeshList, MeshPicture},
         selection::{Corrections, Edit, OutlineMode},
         subject::InitialSelection,
         undo::{DraftEffect, LastChangedPart, LibraryStep, SavedDraft, UndoStep},
@@ -62,6 +63,10 @@ pub struct EnrolState {
     scan_panes: DraftPanes,
     /// State of the list of shots, for a draft that is a scan.
     pub shots: ShotsState,
+    /// The meshes of a file, while a person chooses among them.
+    pub mesh_list: Option<MeshList>,
+    /// Draws the pictures of those meshes.
+    pub(super) picture_task: Task<MeshPicture>,
     /// Steps that can be undone and redone.
     pub steps: UndoStack<UndoStep>,
     /// Prepares the draft; a newer correction replaces an older one.
@@ -108,6 +113,8 @@ impl EnrolState {
             panes: DraftPanes::default(),
             scan_panes: DraftPanes::View,
             shots: ShotsState::default(),
+            mesh_list: None,
+            picture_task: Task::new("mesh-pictures", runner),
             steps: UndoStack::default(),
             draft_task: Task::new("enrol", runner),
             job: DraftJob::Look,
@@ -184,6 +191,11 @@ impl EnrolState {
         self.change_task.running().is_some()
     }
 
+    /// True while pictures of meshes are being drawn.
+    pub(super) fn is_drawing_meshes(&self) -> bool {
+        self.picture_task.running().is_some()
+    }
+
     /// The shots used by a draft that is a scan, or those requested while they are being prepared.
     pub fn shot_choice(&self) -> Option<&ShotChoice> {
         let fused = self.draft.as_ref()?.subject.scan()?;
@@ -236,11 +248,13 @@ impl EnrolState {
             EnrolAction::LookAgain => self.look(cx),
             EnrolAction::Save if self.open.is_some() => self.rename(cx),
             EnrolAction::Save => self.save(cx),
-            EnrolAction::Discard => {
-                if let Some(former) = self.draft.take() {
-                    self.did(UndoStep::Draft(Some(Box::new(former))), cx);
+            EnrolAction::Discard => self.discard(cx),
+            EnrolAction::LeaveOutRest => {
+                if let Some(draft) = &mut self.draft {
+                    draft.chosen = None;
                 }
             }
+            EnrolAction::Meshes(action) => self.choose_meshes(action, cx),
             EnrolAction::Undo => self.undo(cx),
             EnrolAction::UndoChange => self.apply_step(UndoDirection::Undo, cx),
             EnrolAction::Redo => self.apply_step(UndoDirection::Redo, cx),
@@ -307,6 +321,13 @@ impl EnrolState {
                 }
             }
         }
+        while let Some(drawn) = self.picture_task.poll() {
+            match (drawn, &mut self.mesh_list) {
+                (Ok(picture), Some(list)) => list.receive(picture),
+                (Ok(_), None) => {}
+                (Err(error), _) => cx.notify(error),
+            }
+        }
         match self.change_task.poll() {
             Some(Ok(changed)) => self.changed(*changed, cx),
             Some(Err(error)) => {
@@ -343,7 +364,14 @@ impl EnrolState {
 
     fn receive(&mut self, event: DraftEvent, cx: &mut ShellContext<'_>) {
         match event {
-            DraftEvent::Taken(subject, selection) => self.taken(subject, selection, cx),
+            DraftEvent::Several(listing) => {
+                cx.send(Action::RemoveNotices(NoticeTopic::Scene));
+                self.job = DraftJob::Look;
+                self.mesh_list = Some(MeshList::new(listing));
+            }
+            DraftEvent::Taken(subject, selection, chosen) => {
+                self.taken(subject, selection, chosen, cx);
+            }
             DraftEvent::Selected(selection) => {
                 let expected = self.expected.take();
                 if expected.is_some_and(|expected| expected != selection.checksum()) {
@@ -447,6 +475,14 @@ impl EnrolState {
         }
     }
 
+    fn discard(&mut self, cx: &mut ShellContext<'_>) {
+        if let Some(former) = self.draft.take() {
+            let following = former.following();
+            self.did(UndoStep::Draft(Some(Box::new(former))), cx);
+            self.take_following(following, cx);
+        }
+    }
+
     fn rename(&mut self, cx: &mut ShellContext<'_>) {
         let Some(open) = &self.open else {
             return;
@@ -505,8 +541,12 @@ pub enum EnrolAction {
     LookAgain,
     /// Save the draft; with the card of an enrolled part open, store that part's form.
     Save,
-    /// Discard the draft.
+    /// Discard the draft; of several chosen meshes, the next one follows.
     Discard,
+    /// Enrol none of the meshes that were chosen after the draft.
+    LeaveOutRest,
+    /// An action in the list of a file's meshes.
+    Meshes(MeshAction),
     /// Undo the last step of the draft; without a draft, the last step of all.
     Undo,
     /// Undo the last step of all, as a notice offers after a change of the library.

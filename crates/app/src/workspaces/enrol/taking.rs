@@ -1,49 +1,151 @@
 //! Gets another draft: from a scene, a file, or the shots of a scan.
 
 use std::{
-    path::Path,
+    path::{Path, PathBuf},
     sync::{Arc, Weak},
 };
 
 use super::{
-    draft::{Draft, Field},
+    draft::{Draft, Field, Form},
     kept::KeptDraft,
+    meshes::{ChosenMesh, MeshAction},
     selection::{Corrections, Selection},
     state::{DraftJob, EnrolState, form_of},
     subject::EnrolInput,
     undo::{UndoStep, scene_in_front},
-    work,
+    work::{self, DraftEvent},
 };
 use crate::{
     shots::{Asked, ShotsAction, ShotsFile, source_of},
     workspaces::enrol::state::{EnrolAction, EnrolFile},
 };
+use inspection::pipeline::Recipe;
 use shell::{
     action::Action,
-    inspection::source::{Origin, ScanOrder, SceneOrScan, SceneSource},
+    inspection::{
+        library_cache::LibraryCache,
+        source::{Origin, ScanOrder, SceneOrScan, SceneSource},
+    },
     notice::{Notice, NoticeTopic},
     workspace::ShellContext,
 };
-use ui::{language::text, user_error::UserError};
+use ui::{
+    language::text,
+    task::{TaskContext, TaskError},
+    user_error::UserError,
+};
 
 impl EnrolState {
     /// Makes a scene or a scan the draft.
     pub fn take(&mut self, scene: SceneOrScan, title: String, cx: &ShellContext<'_>) {
         match scene {
+            SceneOrScan::Scene(SceneSource::File(path)) => self.open_file(path, title, cx),
             SceneOrScan::Scene(source) => self.take_scene(source, title, cx),
             SceneOrScan::Scan(order) => self.take_scan(order, title, Some(Asked::first()), cx),
         }
     }
 
     fn take_scene(&mut self, source: SceneSource, title: String, cx: &ShellContext<'_>) {
+        self.take_by(title, cx, move |recipe, library_cache, context| {
+            work::take_scene(&source, recipe, library_cache, context)
+        });
+    }
+
+    /// Makes a file the draft, or lists its meshes.
+    fn open_file(&mut self, path: PathBuf, title: String, cx: &ShellContext<'_>) {
+        self.take_by(title, cx, move |recipe, library_cache, context| {
+            work::open_file(&path, recipe, library_cache, context)
+        });
+    }
+
+    /// Makes this mesh the draft.
+    fn take_mesh(&mut self, chosen: ChosenMesh, cx: &ShellContext<'_>) {
+        let title = text!("shell-opening", name = chosen.name());
+        self.take_by(title, cx, move |recipe, library_cache, context| {
+            work::take_mesh(chosen, recipe, library_cache, context)
+        });
+    }
+
+    /// Makes the next of several chosen meshes the draft, unless something else is about to be it.
+    pub(super) fn take_following(&mut self, following: Option<ChosenMesh>, cx: &ShellContext<'_>) {
+        if let Some(next) = following.filter(|_| !self.is_taking_another()) {
+            self.take_mesh(next, cx);
+        }
+    }
+
+    fn take_by(
+        &mut self,
+        title: String,
+        cx: &ShellContext<'_>,
+        work: impl FnOnce(
+            &Recipe,
+            &LibraryCache,
+            &TaskContext<DraftEvent>,
+        ) -> Result<DraftEvent, TaskError>
+        + Send
+        + 'static,
+    ) {
         self.open = None;
+        self.close_meshes();
         let (recipe, library_cache) = (
             Arc::clone(&cx.session.recipe),
             cx.services.library_cache.clone(),
         );
         self.start(title, DraftJob::Take, None, move |context| {
-            work::take_scene(&source, &recipe, &library_cache, context)
+            work(&recipe, &library_cache, context)
         });
+    }
+
+    /// Carries out an action in the list of meshes.
+    pub(super) fn choose_meshes(&mut self, action: MeshAction, cx: &ShellContext<'_>) {
+        let Some(list) = &mut self.mesh_list else {
+            return;
+        };
+        match action {
+            MeshAction::Close => self.close_meshes(),
+            MeshAction::EnrolWhole => {
+                let path = list.whole();
+                let title = text!("shell-opening", name = list.title());
+                self.take_scene(SceneSource::File(path), title, cx);
+            }
+            MeshAction::Enrol(row) => {
+                if let Some(first) = list.chosen(row) {
+                    self.take_mesh(first, cx);
+                }
+            }
+            MeshAction::Tick(_) | MeshAction::TickTo(_) | MeshAction::GoTo(_) => list.apply(action),
+            MeshAction::Search(_)
+            | MeshAction::Order(_)
+            | MeshAction::Unit(_)
+            | MeshAction::Visible(_) => {
+                list.apply(action);
+                self.draw_meshes(cx);
+            }
+        }
+    }
+
+    /// Draws the pictures of the visible meshes that have none yet, and no others any more.
+    fn draw_meshes(&mut self, cx: &ShellContext<'_>) {
+        self.picture_task.cancel();
+        let Some(list) = &self.mesh_list else {
+            return;
+        };
+        let wanted = list.without_picture();
+        if wanted.is_empty() {
+            return;
+        }
+        let (listing, unit) = (Arc::clone(list.listing()), list.unit());
+        let recipe = Arc::clone(&cx.session.recipe);
+        self.picture_task
+            .start(text!("enrol-examining-part"), move |context| {
+                work::draw_meshes(&listing.file, unit, &wanted, &recipe, context)
+            });
+    }
+
+    /// Closes the list of meshes.
+    fn close_meshes(&mut self) {
+        self.picture_task.cancel();
+        self.mesh_list = None;
     }
 
     /// Fuses the shots of a scan and makes them the draft.
@@ -55,6 +157,7 @@ impl EnrolState {
         cx: &ShellContext<'_>,
     ) {
         self.open = None;
+        self.close_meshes();
         let request = cx.session.scan_request(order);
         let library_cache = cx.services.library_cache.clone();
         self.start(title, DraftJob::Take, asked, move |context| {
@@ -101,12 +204,13 @@ impl EnrolState {
         }
     }
 
-    /// Installs a new draft. The former one can be brought back; its form is kept, as it may describe the same part. Of the
-    /// form of an earlier start, what a person wrote is kept.
+    /// Installs a new draft. The former one can be brought back; its form is kept, as it may describe the same part, unless
+    /// the new one is a mesh chosen by its name. Of the form of an earlier start, what a person wrote is kept.
     pub(super) fn taken(
         &mut self,
         subject: Arc<EnrolInput>,
         selection: Arc<Selection>,
+        chosen: Option<ChosenMesh>,
         cx: &mut ShellContext<'_>,
     ) {
         cx.send(Action::RemoveNotices(NoticeTopic::Scene));
@@ -125,8 +229,10 @@ impl EnrolState {
         let library = cx.session.library.as_deref();
         let replaced = self.replacing.as_ref().filter(|_| !is_again);
         let replaced = replaced.and_then(|name| form_of(name, library));
-        let written = former.as_ref().map(|former| former.form.clone());
-        let written = written.or_else(|| {
+        let of_mesh = chosen.as_ref();
+        let of_mesh = of_mesh.map(|mesh| Form::titled(mesh.name(), library));
+        let written = || former.as_ref().map(|former| former.form.clone());
+        let written = of_mesh.clone().or_else(written).or_else(|| {
             let mut form = coming.as_ref()?.form.clone();
             if !is_again {
                 // This scene may be of another part.
@@ -138,7 +244,9 @@ impl EnrolState {
             Some(form) => {
                 let before = match &former {
                     // Its form was that of the part to replace, too.
-                    Some(former) if former.form.name == form.name => former.form_before.clone(),
+                    Some(former) if of_mesh.is_none() && former.form.name == form.name => {
+                        former.form_before.clone()
+                    }
                     _ => written,
                 };
                 (form, before)
@@ -166,6 +274,7 @@ impl EnrolState {
             checked: None,
             form,
             form_before,
+            chosen,
             in_front: if is_again {
                 Weak::new()
             } else {

@@ -221,7 +221,7 @@ impl EnrolState {
                 Notice::undoable(step.what.whole.clone(), WorkspaceKind::Enrol)
             }
         };
-        let mut saved = None;
+        let (mut saved, mut following) = (None, None);
         if let DraftEffect::MakesWay(other) = &mut step.draft {
             let coming = other.take();
             let going = self.draft.take().map(Box::new);
@@ -233,6 +233,7 @@ impl EnrolState {
                 let newest = going.as_deref();
                 let newest = newest.filter(|draft| self.is_newest(draft, cx.session));
                 saved = newest.and_then(inspectable);
+                following = going.as_ref().and_then(|draft| draft.following());
             }
             self.draft = coming.map(|draft| *draft);
             *other = going;
@@ -248,6 +249,7 @@ impl EnrolState {
         cx.send(Action::WithdrawUndo(WorkspaceKind::Enrol));
         cx.notify(notice);
         self.look(cx);
+        self.take_following(following, cx);
     }
 
     /// True if nothing has been captured since the draft's scene.

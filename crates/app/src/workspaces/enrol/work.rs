@@ -1,12 +1,18 @@
 //! Jobs of the draft's task: get the input, and prepare the part.
 
-use std::sync::Arc;
+use std::{path::Path, sync::Arc};
 
 use jiff::Timestamp;
 
 use super::{
+    meshes::{ChosenMesh, MeshListing, MeshPicture},
     selection::{Corrections, Selection},
     subject::{EnrolInput, EnrolInputKind, InitialSelection},
+};
+use files::{
+    MeshFile,
+    import::{ImportOptions, LengthUnit},
+    meshes_in,
 };
 use inspection::{
     library::{
@@ -30,8 +36,10 @@ use ui::{
 /// A result, partial or final, of the task.
 #[derive(Clone, Debug)]
 pub enum DraftEvent {
-    /// A new input and its initial selection; [`Checked`](Self::Checked) follows.
-    Taken(Arc<EnrolInput>, Arc<Selection>),
+    /// The meshes of a file, to choose from.
+    Several(Arc<MeshListing>),
+    /// A new input and its initial selection, and whether it was chosen among meshes; [`Checked`](Self::Checked) follows.
+    Taken(Arc<EnrolInput>, Arc<Selection>, Option<ChosenMesh>),
     /// The selection after the corrections; [`Checked`](Self::Checked) follows.
     Selected(Arc<Selection>),
     /// The part that would be stored, or why none can be.
@@ -49,9 +57,78 @@ pub struct Checked {
     pub likenesses: Vec<Similarity>,
 }
 
+/// Opens a file to enrol: its meshes, if it has several, else a part.
+pub(super) fn open_file(
+    path: &Path,
+    recipe: &Recipe,
+    library_cache: &LibraryCache,
+    context: &TaskContext<DraftEvent>,
+) -> Result<DraftEvent, TaskError> {
+    // Taking it says why a file cannot be read, and names the meshes of one too large to list.
+    if let Ok(Some(file)) = meshes_in(path) {
+        return Ok(DraftEvent::Several(Arc::new(MeshListing::of(file))));
+    }
+    let source = SceneSource::File(path.to_owned());
+    take_scene(&source, recipe, library_cache, context)
+}
+
+/// Gets a mesh that was chosen, and prepares the part.
+pub(super) fn take_mesh(
+    chosen: ChosenMesh,
+    recipe: &Recipe,
+    library_cache: &LibraryCache,
+    context: &TaskContext<DraftEvent>,
+) -> Result<DraftEvent, TaskError> {
+    let source = SceneSource::File(chosen.path().to_owned());
+    read_and_take(&source, Some(chosen), recipe, library_cache, context)
+}
+
+/// Draws the small pictures of meshes, read in this unit, and finds out which cannot be enrolled.
+pub(super) fn draw_meshes(
+    file: &MeshFile,
+    unit: LengthUnit,
+    wanted: &[usize],
+    recipe: &Recipe,
+    context: &TaskContext<MeshPicture>,
+) -> Result<MeshPicture, TaskError> {
+    let params = params_of(recipe);
+    let units = ImportOptions {
+        unit,
+        ..ImportOptions::default()
+    };
+    let draw = |index: usize| {
+        let named = file.meshes.get(index);
+        let mesh = named.and_then(|named| named.mesh.as_ref().ok());
+        let mut mesh = mesh.cloned().unwrap_or_default();
+        units.convert(&mut mesh.vertices);
+        let enrolled = enrol_mesh(&mesh, &described(String::new(), false), &params);
+        let picture = enrolled.map(|enrolled| Arc::new(enrolled.part.thumbnail));
+        MeshPicture { index, picture }
+    };
+    let Some((last, others)) = wanted.split_last() else {
+        return Err(TaskError::Cancelled);
+    };
+    for index in others {
+        context.check()?;
+        context.partial(draw(*index));
+    }
+    context.check()?;
+    Ok(draw(*last))
+}
+
 /// Gets a scene to enrol, and prepares the part.
 pub(super) fn take_scene(
     source: &SceneSource,
+    recipe: &Recipe,
+    library_cache: &LibraryCache,
+    context: &TaskContext<DraftEvent>,
+) -> Result<DraftEvent, TaskError> {
+    read_and_take(source, None, recipe, library_cache, context)
+}
+
+fn read_and_take(
+    source: &SceneSource,
+    chosen: Option<ChosenMesh>,
     recipe: &Recipe,
     library_cache: &LibraryCache,
     context: &TaskContext<DraftEvent>,
@@ -60,7 +137,7 @@ pub(super) fn take_scene(
     let is_cancelled = || context.is_cancelled();
     let read = EnrolInput::read(source, &params, library_cache.camera(), &is_cancelled)?;
     let subject = read.map_err(|error| UserError::from(what_and_advice(&error)))?;
-    take(subject, &params, library_cache, context)
+    take(subject, chosen, &params, library_cache, context)
 }
 
 /// Gets a scene that was taken before, read in the same way.
@@ -92,7 +169,8 @@ pub(super) fn take_scan(
     match fuse(request, Then::Enrol, &Steps::new(context, &report)) {
         Ok(Some(fused)) => {
             let subject = EnrolInput::of_scan(Arc::new(fused));
-            take(subject, &params_of(&request.recipe), library_cache, context)
+            let params = params_of(&request.recipe);
+            take(subject, None, &params, library_cache, context)
         }
         Ok(None) => Err(TaskError::Cancelled),
         Err(error) if error.wants_poses() => {
@@ -128,6 +206,7 @@ pub(super) fn look(
 /// Hands over the input, then prepares the part.
 fn take(
     subject: EnrolInput,
+    chosen: Option<ChosenMesh>,
     params: &EnrolParams,
     library_cache: &LibraryCache,
     context: &TaskContext<DraftEvent>,
@@ -136,8 +215,8 @@ fn take(
     let corrections = Corrections::none(subject.usual);
     let selection = Arc::new(Selection::of(&subject, &corrections));
     context.check()?;
-    let taken = DraftEvent::Taken(Arc::clone(&subject), Arc::clone(&selection));
-    context.partial(taken);
+    let (input, selected) = (Arc::clone(&subject), Arc::clone(&selection));
+    context.partial(DraftEvent::Taken(input, selected, chosen));
     check(
         &subject,
         &corrections,
@@ -187,19 +266,11 @@ fn enrol(
     selection: &Selection,
     params: &EnrolParams,
 ) -> Result<Enrolled, EnrolError> {
-    let now = geometry::clock::now();
-    let about = PartDescription {
-        name: PartName::new("part").expect("a name"),
-        title: String::new(),
-        notes: String::new(),
-        from: match subject.scan() {
-            Some(fused) => fused.choice.set.files.title(),
-            None => subject.origin.title(),
-        },
-        // Whole seconds suffice for people.
-        at: Timestamp::from_second(now.as_second()).unwrap_or(now),
-        simulated: subject.origin.is_simulated(),
+    let from = match subject.scan() {
+        Some(fused) => fused.choice.set.files.title(),
+        None => subject.origin.title(),
     };
+    let about = described(from, subject.origin.is_simulated());
     match (&subject.matter, taking) {
         (EnrolInputKind::Mesh(mesh, _), _) => enrol_mesh(mesh, &about, params),
         (EnrolInputKind::Scan(scan), _) => {
@@ -212,5 +283,19 @@ fn enrol(
             let kept = SegmentedPart::selected(scene, &selection.indices, &params.segment);
             enrol_whole(&kept.cloud, &about, params)
         }
+    }
+}
+
+/// Describes a part that a person has not named yet.
+fn described(from: String, simulated: bool) -> PartDescription {
+    let now = geometry::clock::now();
+    PartDescription {
+        name: PartName::new("part").expect("a name"),
+        title: String::new(),
+        notes: String::new(),
+        from,
+        // Whole seconds suffice for people.
+        at: Timestamp::from_second(now.as_second()).unwrap_or(now),
+        simulated,
     }
 }

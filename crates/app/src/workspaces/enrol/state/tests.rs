@@ -4,6 +4,7 @@ use nalgebra::Point3;
 use super::{
     super::{
         draft::Field,
+        meshes::{MeshAction, MeshOrder},
         outline::{DrawnOutline, DrawnOver},
         segments::PointAction,
         selection::Edit,
@@ -11,6 +12,7 @@ use super::{
     },
     *,
 };
+use files::fixtures::obj_of;
 use geometry::cloud::PointCloud;
 use inspection::library::{LibraryFolder, PartNaming};
 use shell::{
@@ -24,7 +26,7 @@ use shell::{
     session::{Shown, WorkspaceKind},
     workspace::TestShell,
 };
-use simulate::{PartKind, Side};
+use simulate::{PartKind, PartModel, Side};
 use stages::scene::SceneCloud;
 use ui::viewport::ViewCamera;
 
@@ -36,6 +38,8 @@ struct Bench {
     /// What the last change of the library asks to inspect.
     saved: Option<SceneOrScan>,
     folder: tempfile::TempDir,
+    /// Files to open.
+    files: tempfile::TempDir,
 }
 
 impl Bench {
@@ -50,6 +54,7 @@ impl Bench {
             notices: Vec::new(),
             saved: None,
             folder,
+            files: tempfile::tempdir().expect("a folder"),
         }
     }
 
@@ -116,6 +121,43 @@ impl Bench {
             .take(scene, "Taking".into(), &self.shell.context());
         self.work();
         self.act(EnrolAction::TakeAs(InitialSelection::Whole));
+    }
+
+    /// Opens a file.
+    fn open(&mut self, path: PathBuf) {
+        let scene = SceneOrScan::Scene(SceneSource::File(path));
+        self.enrol
+            .take(scene, "Opening".into(), &self.shell.context());
+        self.deliver();
+        self.work();
+    }
+
+    /// Opens a file with the meshes of three parts, listed by name, and ticks all. Returns its path.
+    fn list_meshes(&mut self) -> PathBuf {
+        let path = self.files.path().join("car.obj");
+        let kinds = [PartKind::Fender, PartKind::Grille, PartKind::TrunkLid];
+        let [fender, grille, lid] = kinds.map(|kind| PartModel::new(kind, Side::Left, 0));
+        let objects = [
+            ("Fender", fender.mesh()),
+            ("Grille", grille.mesh()),
+            ("Lid", lid.mesh()),
+        ];
+        std::fs::write(&path, obj_of(&objects)).expect("written");
+        self.open(path.clone());
+        self.in_list(MeshAction::Order(MeshOrder::Name));
+        self.in_list(MeshAction::Tick(0));
+        self.in_list(MeshAction::TickTo(2));
+        path
+    }
+
+    fn in_list(&mut self, action: MeshAction) {
+        self.act(EnrolAction::Meshes(action));
+    }
+
+    /// Title of the draft, with its number and that of all chosen meshes.
+    fn chosen(&self) -> Option<(&str, [usize; 2])> {
+        let draft = self.enrol.draft.as_ref()?;
+        Some((&draft.form.title, draft.chosen.as_ref()?.number_of_all()))
     }
 
     /// Brings back the draft of an earlier start.
@@ -730,4 +772,106 @@ fn an_operator_is_asked_for_the_engineer_before_anything_changes() {
     let event = Event::EngineerIn;
     bench.enrol.on_event(&event, &mut bench.shell.context());
     assert!(bench.enrol.draft.is_none());
+}
+
+#[test]
+fn chosen_meshes_follow_each_other_as_they_are_saved_or_skipped() {
+    let mut bench = Bench::new();
+    bench.list_meshes();
+    assert!(bench.enrol.draft.is_none());
+    bench.in_list(MeshAction::Enrol(None));
+    assert!(bench.enrol.mesh_list.is_none());
+    assert_eq!(bench.chosen(), Some(("Fender", [1, 3])));
+    bench.act(EnrolAction::Save);
+    assert_eq!(bench.chosen(), Some(("Grille", [2, 3])));
+    bench.act(EnrolAction::Discard);
+    assert_eq!(bench.chosen(), Some(("Lid", [3, 3])));
+    // The skipped one is taken back, and the last one follows it again.
+    bench.act(EnrolAction::Undo);
+    assert_eq!(bench.chosen(), Some(("Grille", [2, 3])));
+    bench.act(EnrolAction::Save);
+    assert_eq!(bench.chosen(), Some(("Lid", [3, 3])));
+    bench.act(EnrolAction::Save);
+    assert!(bench.enrol.draft.is_none());
+    assert_eq!(bench.names(), ["fender", "grille", "lid"]);
+}
+
+#[test]
+fn the_rest_of_the_chosen_meshes_is_left_out_or_gives_way_to_another_scene() {
+    let mut bench = Bench::new();
+    for leaves_out in [true, false] {
+        bench.list_meshes();
+        bench.in_list(MeshAction::Enrol(None));
+        if leaves_out {
+            bench.act(EnrolAction::LeaveOutRest);
+        } else {
+            bench.take(80);
+            bench.named("Plate");
+        }
+        bench.act(EnrolAction::Save);
+        assert_eq!(bench.from(), None);
+    }
+    assert_eq!(bench.names(), ["fender", "plate"]);
+}
+
+#[test]
+fn a_chosen_mesh_has_no_words_of_the_draft_before_it() {
+    let mut bench = Bench::new();
+    bench.take(80);
+    bench.named("Plate");
+    bench.list_meshes();
+    assert_eq!(bench.from().as_deref(), Some("80.pcd"));
+    bench.in_list(MeshAction::Enrol(None));
+    assert_eq!(bench.chosen(), Some(("Fender", [1, 3])));
+    assert_eq!(bench.from().as_deref(), Some("car.obj#Fender"));
+    bench.act(EnrolAction::Undo);
+    let draft = bench.enrol.draft.as_ref().expect("the former one");
+    assert_eq!((&*draft.form.title, &draft.chosen), ("Plate", &None));
+}
+
+#[test]
+fn a_file_of_several_meshes_is_one_part_if_so_chosen_and_after_a_restart() {
+    let mut bench = Bench::new();
+    bench.list_meshes();
+    bench.in_list(MeshAction::EnrolWhole);
+    bench.named("Car");
+    let kept = KeptDraft::of(bench.enrol.draft.as_ref().expect("a draft"));
+    let mut after = Bench::new();
+    after.bring_back(kept);
+    assert!(after.enrol.mesh_list.is_none());
+    assert_eq!(after.from().as_deref(), Some("car.obj"));
+    let draft = after.enrol.draft.as_ref().expect("back");
+    assert_eq!(draft.form.title, "Car");
+}
+
+#[test]
+fn pictures_are_drawn_of_visible_meshes_until_the_list_is_closed() {
+    let mut bench = Bench::new();
+    let path = bench.list_meshes();
+    let draw = |bench: &mut Bench| {
+        bench.in_list(MeshAction::Visible(0..2));
+        assert!(bench.enrol.is_drawing_meshes());
+    };
+    let waiting = |bench: &Bench| {
+        let list = bench.enrol.mesh_list.as_ref().expect("a list");
+        list.without_picture().len()
+    };
+    draw(&mut bench);
+    assert!(bench.enrol.picture_task.run_waiting());
+    bench.enrol.update(&mut bench.shell.context());
+    assert_eq!(
+        (waiting(&bench), bench.enrol.is_drawing_meshes()),
+        (0, false)
+    );
+    let list = bench.enrol.mesh_list.as_ref().expect("a list");
+    let drawn = [0, 1, 2].map(|index| list.picture(index).is_some());
+    assert_eq!(drawn, [true, true, false]);
+
+    bench.open(path);
+    draw(&mut bench);
+    bench.in_list(MeshAction::Close);
+    assert!(!bench.enrol.is_drawing_meshes());
+    bench.enrol.picture_task.run_waiting();
+    bench.enrol.update(&mut bench.shell.context());
+    assert!(bench.enrol.mesh_list.is_none() && bench.enrol.draft.is_none());
 }
