@@ -239,6 +239,7 @@ fn tell_of(news: HistoryEvent, console: &Console) {
         | HistoryEvent::FramesNotKept { what, advice } => {
             console.advise(&format_args!("warning: {what}"), &advice);
         }
+        HistoryEvent::FramesKept => console.note(&"Frames are kept in the history again"),
         HistoryEvent::Swept(swept) if swept.num_frames > USUALLY_SWEPT => {
             console.note(&format_args!(
                 "The retention rule removed {} frames, {:.1} MB, from the history",

@@ -626,7 +626,13 @@ fn on_a_disk_that_fills_first_frames_and_then_rows_are_no_longer_written_and_eac
     keeper.retry(begun + 2 * LATER);
     let news = keeper.take_news();
     assert!(
-        matches!(news.as_slice(), [HistoryEvent::Works { num_lost: 0, .. }]),
+        matches!(
+            news.as_slice(),
+            [
+                HistoryEvent::FramesKept,
+                HistoryEvent::Works { num_lost: 0, .. }
+            ]
+        ),
         "{news:?}"
     );
     assert_eq!(keeper.num_waiting(), 0);

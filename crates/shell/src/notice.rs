@@ -52,6 +52,8 @@ pub enum NoticeTopic {
     Serial,
     /// Why it is not known what should hang there: removed once it is.
     Orders,
+    /// Why the frames of the history are not kept: removed once one is.
+    Frames,
     /// Another window is open with the same data folder: shown in both views.
     SecondWindow,
 }
@@ -69,6 +71,7 @@ impl NoticeTopic {
                 | Self::Program
                 | Self::Serial
                 | Self::Orders
+                | Self::Frames
         )
     }
 }

@@ -481,10 +481,15 @@ impl HistoryBuffer {
         }
     }
 
-    /// Reports a frame that could not be kept if it is the first since one was.
+    /// Reports the first frame that could not be kept, and the first that was kept after it.
     fn tell_of_frame(&self, inner: &mut Inner, frame: Result<bool, HistoryError>) {
         match frame {
-            Ok(is_kept) => inner.loses_frames &= !is_kept,
+            Ok(true) => {
+                if std::mem::take(&mut inner.loses_frames) {
+                    self.tell(HistoryEvent::FramesKept);
+                }
+            }
+            Ok(false) => {}
             Err(error) => {
                 if !std::mem::replace(&mut inner.loses_frames, true) {
                     self.tell(HistoryEvent::FramesNotKept {

@@ -41,13 +41,15 @@ pub enum HistoryEvent {
         /// What to do about it.
         advice: String,
     },
-    /// A frame that the rule keeps could not be written. Told once, until one can be.
+    /// A frame that the rule keeps could not be written. Told once, until one is.
     FramesNotKept {
         /// The error.
         what: String,
         /// What to do about it.
         advice: String,
     },
+    /// A frame was kept again after that.
+    FramesKept,
     /// Rows may have changed: another program wrote, keeping a case labelled a part, or a serial number arrived after the
     /// verdict of its part.
     FilesChanged,

@@ -166,7 +166,7 @@ impl From<FrameError> for io::Error {
     }
 }
 
-/// Writes a scene into the folder of frames; returns `None` for a scene without a single reading.
+/// Writes a scene into the folder of frames, all of it or nothing; returns `None` for a scene without a single reading.
 pub(super) fn write(
     folder: &Path,
     scene: &SceneCloud,
@@ -182,10 +182,17 @@ pub(super) fn write(
         at.strftime("%Y%m%dT%H%M%S%3f"),
         std::process::id()
     );
-    write_as(folder, &stem, scene).map(Some)
+    let written = write_as(folder, &stem, scene);
+    if written.is_err() {
+        // Without its empty cell, the frame takes room for nothing.
+        for ending in ["png", "pcd", "json"] {
+            let _ = remove(&folder.join(format!("{stem}.{ending}")));
+        }
+    }
+    written.map(Some)
 }
 
-/// Writes a scene into a folder under this stem; the extension depends on the content.
+/// Writes a scene into a folder under this stem; the extension depends on the content. An error may leave some of it.
 pub fn write_as(folder: &Path, stem: &str, scene: &SceneCloud) -> Result<FrameRecord, FrameError> {
     let (depth, cloud) = content_of(scene);
     let ending = if depth.is_some() { "png" } else { "pcd" };

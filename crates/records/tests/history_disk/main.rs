@@ -8,7 +8,7 @@
 #![allow(clippy::disallowed_methods, reason = "tests change files")]
 #![cfg(target_os = "linux")]
 
-use std::{env, fs, path::Path, process::Command, thread};
+use std::{env, fs, path::Path, process::Command, sync::Arc, thread};
 
 use capture::fixtures::{SHARED, compile_c};
 use geometry::{error::Advice as _, fixtures::skipped};
@@ -16,6 +16,7 @@ use records::fixtures::{history_entry, open_history};
 use records::history::{
     Filter, FrameLoss, History, HistoryError, KeepFrames, Retention, StoredVerdict,
 };
+use stages::scene::EmptyCell;
 
 /// Environment variable of the process whose disk fails: its folder.
 const BODY: &str = "PARTSIGHT_HISTORY_DISK_TEST";
@@ -37,8 +38,12 @@ const STEPS: [Step; 3] = [
     |history| add(history, 3),
 ];
 
+/// Adds an inspection with an empty cell of its own.
 fn add(history: &mut History, seconds: i64) -> Result<(), HistoryError> {
-    let entry = history_entry(seconds, StoredVerdict::Accepted, "fender");
+    let mut entry = history_entry(seconds, StoredVerdict::Accepted, "fender");
+    let scene = Arc::make_mut(entry.scene.as_mut().expect("a scene"));
+    let cell = EmptyCell::from_scene(scene).expect("a picture");
+    scene.empty_cell = Some(Arc::new(cell));
     history.add(&entry, &ALL).map(|_| ())
 }
 
@@ -282,6 +287,12 @@ fn whichever_call_of_a_frame_fails_its_inspection_is_written_and_says_why_the_fr
             }
             let has_failed = folder.path().join("mark").exists();
             assert_eq!(num_lost > 0, has_failed, "{fault}");
+            // What was written of a lost frame is removed, where the disk lets it be.
+            let frames = fs::read_dir(history.frames_folder()).expect("listed");
+            let is_picture =
+                |file: &fs::DirEntry| file.path().extension().is_some_and(|is| is == "png");
+            let num_pictures = frames.flatten().filter(is_picture).count();
+            assert!(kind != "once" || num_pictures == 2 - num_lost, "{fault}");
             if !has_failed {
                 assert!(at > 4, "{kind}: only {at} calls");
                 break;

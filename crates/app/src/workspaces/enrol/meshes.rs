@@ -435,8 +435,8 @@ mod tests {
         rows.map(|(_, mesh)| mesh.name.as_str()).collect()
     }
 
-    fn blank() -> Result<Arc<RgbaImage>, EnrolError> {
-        Ok(Arc::new(RgbaImage::new(1, 1)))
+    fn blank() -> Arc<RgbaImage> {
+        Arc::new(RgbaImage::new(1, 1))
     }
 
     fn names(mut chosen: Option<ChosenMesh>) -> Vec<String> {

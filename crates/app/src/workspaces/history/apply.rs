@@ -13,7 +13,7 @@ use records::history::{HistoryEvent, NewEntry, PruneResult, SetAside};
 use shell::{
     action::{Action, Event},
     inspection::{inspected::Inspected, library_cache::LibraryView, source::file_name},
-    notice::Notice,
+    notice::{Notice, NoticeTopic},
     session::{ReinspectionPurpose, UserRole, WorkspaceKind},
     workspace::ShellContext,
 };
@@ -241,7 +241,11 @@ impl HistoryState {
                 self.answered();
                 cx.notify(UserError { what, advice });
             }
-            HistoryEvent::FramesNotKept { what, advice } => cx.notify(UserError { what, advice }),
+            HistoryEvent::FramesNotKept { what, advice } => {
+                let notice = Notice::from(UserError { what, advice });
+                cx.notify(notice.about(NoticeTopic::Frames));
+            }
+            HistoryEvent::FramesKept => cx.send(Action::RemoveNotices(NoticeTopic::Frames)),
             HistoryEvent::Swept(PruneResult {
                 num_frames,
                 num_bytes,

@@ -9,7 +9,7 @@ use records::{
 use shell::{
     action::{Action, Event},
     inspection::{inspected::inspected_cell, source::CellChoice},
-    notice::NoticeKind,
+    notice::{NoticeKind, NoticeTopic},
     session::{ReinspectionPurpose, UserRole, WorkspaceKind},
     workspace::TestShell,
 };
@@ -218,6 +218,24 @@ fn what_waited_keeps_its_place_under_its_new_number() {
     assert_eq!(bench.history.selected, Some(58));
     assert!(bench.history.whole(58).is_some() && bench.history.problem.is_none());
     assert!(bench.shell.notices()[1].contains("one inspection that waited"));
+}
+
+#[test]
+fn the_notice_that_frames_are_not_kept_goes_once_one_is() {
+    let mut bench = Bench::new();
+    bench.take_news(HistoryEvent::FramesNotKept {
+        what: "the disk is full".into(),
+        advice: "Make room".into(),
+    });
+    bench.take_news(HistoryEvent::FramesKept);
+    let [
+        Action::Notify(notice),
+        Action::RemoveNotices(NoticeTopic::Frames),
+    ] = &bench.shell.sent[..]
+    else {
+        panic!("{:?}", bench.shell.sent);
+    };
+    assert_eq!(notice.topic, NoticeTopic::Frames);
 }
 
 #[test]
