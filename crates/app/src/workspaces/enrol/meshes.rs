@@ -508,7 +508,7 @@ mod tests {
         });
         list.receive(MeshPicture {
             index: small,
-            picture: blank(),
+            picture: Ok(blank()),
         });
         assert_eq!(names(list.chosen(Some(0))), ["A"]);
         assert!(list.without_picture().is_empty());
@@ -534,7 +534,7 @@ mod tests {
         for first in (0..600).step_by(10) {
             list.apply(MeshAction::Visible(first..first + 10));
             for index in list.without_picture() {
-                let picture = blank();
+                let picture = Ok(blank());
                 list.receive(MeshPicture { index, picture });
             }
             assert!(list.without_picture().is_empty(), "{first}");
