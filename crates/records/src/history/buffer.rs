@@ -19,6 +19,7 @@ use super::{
     entry::{NewEntry, Summary},
     error::HistoryError,
     event::HistoryEvent,
+    frames::FrameLoss,
     hung::HungId,
     open::{FILE, OpenedHistory},
     retention::{PruneResult, Retention, Usage},
@@ -157,7 +158,8 @@ impl HistoryBuffer {
         let mut inner = self.lock();
         inner.last += 1;
         let mut number = -inner.last;
-        inner.num_lost += wait(&mut inner.waiting, entry, number);
+        let loss = self.place.is_some().then_some(FrameLoss::NotWritable);
+        inner.num_lost += wait(&mut inner.waiting, entry, number, loss);
         if self.place.is_some() && inner.next_try.is_none_or(|at| at <= now) {
             let mut numbers = self.write_waiting(&mut inner, now).into_iter();
             let written = numbers.find(|(waited, _)| *waited == number);

@@ -392,11 +392,11 @@ impl NewEntry {
         Self { shots, ..self }
     }
 
-    /// Drops the scenes from which the frames would be written, and notes why.
-    pub(super) fn drop_frames(&mut self, loss: FrameLoss) {
+    /// Drops the scenes from which the frames would be written, and notes why, if that is a loss.
+    pub(super) fn drop_frames(&mut self, loss: Option<FrameLoss>) {
         self.shots = Vec::new();
         if self.scene.take().is_some() {
-            self.record.detail.frame_loss = Some(loss);
+            self.record.detail.frame_loss = loss;
         }
     }
 

@@ -15,15 +15,21 @@ pub(super) const MAX_WAITING: usize = 2000;
 /// Number of the newest of them that keep their scenes, 4 MB each.
 const MAX_SCENES: usize = 4;
 
-/// Adds a waiting inspection under this number. Returns how many were lost for it.
-pub(super) fn wait(waiting: &mut VecDeque<NewEntry>, mut entry: NewEntry, number: i64) -> usize {
+/// Adds a waiting inspection under this number. Returns how many were lost for it. An old one gives its scenes up, which is
+/// this loss, if any was to be written.
+pub(super) fn wait(
+    waiting: &mut VecDeque<NewEntry>,
+    mut entry: NewEntry,
+    number: i64,
+    loss: Option<FrameLoss>,
+) -> usize {
     entry.record.summary.number = number;
     waiting.push_back(entry);
     let num_lost = waiting.len().saturating_sub(MAX_WAITING);
     waiting.drain(..num_lost);
     let old = waiting.len().saturating_sub(MAX_SCENES);
     if let Some(entry) = old.checked_sub(1).and_then(|i| waiting.get_mut(i)) {
-        entry.drop_frames(FrameLoss::NotWritable);
+        entry.drop_frames(loss);
     }
     num_lost
 }

@@ -94,7 +94,7 @@ impl Writer {
             MAX_SCENES
         };
         if entry.scene.is_some() && counts.scenes.load(Ordering::Relaxed) >= most {
-            entry.drop_frames(FrameLoss::SlowDisk);
+            entry.drop_frames(Some(FrameLoss::SlowDisk));
             counts.bare.fetch_add(1, Ordering::Relaxed);
         }
         if counts.waiting.load(Ordering::Relaxed) >= MAX_INSPECTIONS {

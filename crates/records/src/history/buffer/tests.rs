@@ -73,7 +73,7 @@ fn without_a_folder_everything_is_kept_in_memory_and_nothing_is_wrong() {
         let record = keeper.row(number).expect("asked").expect("there");
         record.detail.frame_loss
     };
-    assert_eq!([loss(-6), loss(-1)], [None, Some(FrameLoss::NotWritable)]);
+    assert_eq!([loss(-6), loss(-1)], [None, None], "none was to be written");
     assert!(
         !keeper
             .row(-6)
@@ -84,6 +84,22 @@ fn without_a_folder_everything_is_kept_in_memory_and_nothing_is_wrong() {
             .is_empty()
     );
     assert_eq!(keeper.next_try(), None);
+}
+
+#[test]
+fn an_old_one_that_waits_for_the_disk_says_that_its_frame_is_lost() {
+    let home = tempfile::tempdir().expect("a folder");
+    let place = home.path().join("taken");
+    fs::write(&place, "a file").expect("written");
+    let keeper = HistoryBuffer::new(Some(place));
+    for seconds in 1..=6 {
+        keeper.add(seconds as u64, not_accepted(seconds), Instant::now());
+    }
+    let loss = |number| {
+        let record = keeper.row(number).expect("asked").expect("there");
+        record.detail.frame_loss
+    };
+    assert_eq!([loss(-6), loss(-1)], [None, Some(FrameLoss::NotWritable)]);
 }
 
 #[test]
