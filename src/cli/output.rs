@@ -7,7 +7,10 @@ use super::{
     verdict::{accepted_or_not, in_column, in_robot_words, place_of, show_card},
 };
 use files::visible;
-use inspection::{library::Library, pipeline::Inspection};
+use inspection::{
+    library::Library,
+    pipeline::{Identification, Inspection},
+};
 use station::Inspected;
 
 /// Form of the results.
@@ -99,10 +102,18 @@ impl Columns {
         let scenes = files
             .iter()
             .map(|f| f.display().to_string().chars().count());
-        let parts = library.references.iter().map(|r| r.name.chars().count());
+        // The longest that may hang there in place of each.
+        let parts = library.references.iter().map(|reference| {
+            let found = if reference.cut.is_nothing() {
+                Identification::MirrorImage
+            } else {
+                Identification::OtherHalf
+            };
+            in_column(found, &reference.name).chars().count()
+        });
         Self {
             scene: scenes.max().unwrap_or(0).max("SCENE".len()),
-            part: parts.max().unwrap_or(0) + "nearest ".len(),
+            part: parts.max().unwrap_or(0).max("unknown".len()),
         }
     }
 
@@ -169,5 +180,38 @@ impl Columns {
                 console.line(&format_args!("    {what:<8} {text}"));
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use inspection::fixtures::shipped_library;
+
+    #[test]
+    fn the_column_of_parts_holds_whatever_may_hang_there() {
+        let mut library = shipped_library();
+        let is_held = |found: Identification, library: &Library| {
+            let columns = Columns::for_files(&[], library);
+            let mut names = library.references.iter().map(|one| &one.name);
+            names.all(|name| in_column(found, name).chars().count() <= columns.part)
+        };
+        for found in [
+            Identification::Part,
+            Identification::AnotherMake,
+            Identification::AnotherModel,
+            Identification::MirrorImage,
+            Identification::NotRecognised,
+            Identification::Unknown { is_like: true },
+            Identification::Unknown { is_like: false },
+            Identification::NoPart,
+        ] {
+            assert!(is_held(found, &library), "{found:?}");
+        }
+        // Only of a part that was cut off when it was enrolled, there may be another half.
+        for reference in &mut library.references {
+            reference.cut.left = Some(0.2);
+        }
+        assert!(is_held(Identification::OtherHalf, &library));
     }
 }
