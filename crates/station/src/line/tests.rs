@@ -14,7 +14,7 @@ use serde_json::Value;
 use serve::{Asked, AskedOrder, ExpectedNumbers, PoseKind, VerdictCode};
 use simulate::{
     CellSetup, LineSetup, PartKind, PartPose, PoseRange, RackKind, RackSetup, SensorNoise, Side,
-    SimulatedLine, StandingRack,
+    SimulatedLine, SimulatedObject, StandingRack,
 };
 use stages::{
     pose::PoseEstimate,
@@ -593,13 +593,13 @@ fn a_trigger_names_the_order_of_the_part_that_its_answer_begins_with_and_of_none
         at_most: Duration::ZERO,
         is_ending: &|| false,
     };
-    // Two parts on their way to the right, of which that on the right leaves first.
+    // Two parts on their way.
     let mut follower = LineFollower::new(line(|line| line.direction = Vector3::x_axis()));
     let setup = RackSetup::drawn(RackKind::Apart, 2, 0, 2).expect("two places");
     let rack = StandingRack::arrange(&setup).expect("two places");
     let begin = (Instant::now(), geometry::clock::now());
     let mut rows = Vec::new();
-    let mut ahead = None;
+    let mut ahead = String::new();
     for (k, order) in ["", "", "", "", "4711", "4712", "4712"]
         .into_iter()
         .enumerate()
@@ -607,8 +607,10 @@ fn a_trigger_names_the_order_of_the_part_that_its_answer_begins_with_and_of_none
         let seconds = 0.4 * k as f64;
         let at = Duration::from_secs_f64(seconds);
         let moved = RigidTransform::translation(0.01 * seconds - 0.012, 0.0, 0.0);
+        // The one that was first has left by the last frame.
+        let is_ahead = |object: &SimulatedObject| matches!(object, SimulatedObject::Part { kind, .. } if kind.name() == ahead);
         let frame = rack.frame(
-            |number| (number == 0 || k < 6).then_some(moved),
+            |number| (k < 6 || !is_ahead(&setup.places[number])).then_some(moved),
             &SensorNoise::kinect(k as u64),
         );
         let asked = Asked {
@@ -654,12 +656,12 @@ fn a_trigger_names_the_order_of_the_part_that_its_answer_begins_with_and_of_none
         match k {
             4 => {
                 assert_eq!(named, first);
-                ahead = first;
+                ahead = found.part;
             }
             // The one behind has a trigger of its own once it comes first.
             6 => {
                 assert_eq!(named, first);
-                assert_ne!(named, ahead);
+                assert_ne!(found.part, ahead);
             }
             _ => assert_eq!(named, None, "{k}"),
         }
