@@ -77,20 +77,20 @@ const TARGETS: [Choice<NamedTarget>; 2] = [
 #[derive(Debug, Args)]
 pub(super) struct TrialChoice {
     /// Seed of the simulated start
-    #[arg(long, value_name = "N", default_value_t = SimulatedTrial::default().seed, requires = "simulated")]
+    #[arg(long, value_name = "N", default_value_t = SimulatedTrial::default().seed, requires = "simulated", conflicts_with = "source")]
     seed: u64,
     #[arg(
-        long, value_name = "MS", requires = "simulated",
+        long, value_name = "MS", requires = "simulated", conflicts_with = "source",
         help = format!("How much later than it was taken a simulated frame counts, at least, ms ({})", from_to(&SimulatedTrial::DELAYS_MS)),
         default_value_t = 1000.0 * SimulatedTrial::default().delay.as_secs_f64(),
         value_parser = |text: &str| within(text, &SimulatedTrial::DELAYS_MS),
     )]
     delay: f64,
     /// By how much the calibration of the simulated camera is wrong at most: mm and degrees; default: 20,2
-    #[arg(long, value_name = "MM,DEG", value_parser = parse_hand_eye, requires = "simulated")]
+    #[arg(long, value_name = "MM,DEG", value_parser = parse_hand_eye, requires = "simulated", conflicts_with = "source")]
     hand_eye: Option<HandEyeError>,
     #[arg(
-        long, value_name = "DEG", requires = "simulated",
+        long, value_name = "DEG", requires = "simulated", conflicts_with = "source",
         help = format!("Play of each joint of the simulated arm, degrees ({}); default: 0.006", from_to(&SimulatedTrial::PLAYS_DEG)),
         value_parser = |text: &str| within(text, &SimulatedTrial::PLAYS_DEG),
     )]

@@ -2,7 +2,10 @@
 
 use nalgebra::Point3;
 
-use super::{CountedPose, LineCalibration, LineFitError, fit::BOUND_DEVIATIONS};
+use super::{
+    CountedPose, LineCalibration, LineFitError,
+    fit::{BOUND_DEVIATIONS, DEFAULT_BOUND_M},
+};
 
 /// Fewest poses after the line was stopped.
 pub const MIN_STOPPED: usize = 3;
@@ -52,12 +55,16 @@ impl LineCalibration {
         let free = (before.num + after.num - 2.0).max(1.0);
         let scatter = ((before.squares + after.squares) / free).sqrt();
         let noise = BOUND_DEVIATIONS * scatter * (1.0 / before.num + 1.0 / after.num).sqrt();
+        // Frames of a part at rest all show it in the same place, and their poses are off alike.
+        let bounds = stopped.iter().map(|pose| pose.bound);
+        let bounds = bounds.map(|bound| bound.map_or(DEFAULT_BOUND_M, |bound| bound.0));
+        let alike = bounds.fold(0.0, f64::max);
         let way = after.way - before.way;
         let scale = way * self.scale_bound.hypot(self.slip);
         // Along the direction of a rising count.
         let velocity = speed * moving.last().map_or(1.0, |(_, way)| way.signum());
         let delay = (after.off - before.off) / velocity;
-        let bound = (noise.hypot(scale) / speed).hypot(SPEED_BOUND * delay);
+        let bound = (noise.hypot(alike).hypot(scale) / speed).hypot(SPEED_BOUND * delay);
         if !(-bound..=MAX_DELAY_S).contains(&delay) || bound > MAX_DELAY_S {
             return Err(LineFitError::Delay { delay, bound });
         }

@@ -39,7 +39,7 @@ const MAX_RESIDUAL_M: f64 = 0.005;
 /// Greatest distance of a pose from the line, metres.
 const MAX_OFF_M: f64 = 0.015;
 /// Error of a pose without a bound, metres.
-const DEFAULT_BOUND_M: f64 = 0.004;
+pub(super) const DEFAULT_BOUND_M: f64 = 0.004;
 /// Way between two poses by which a count that was reset is told from one that slips, metres.
 const TELLING_WAY_M: f64 = 0.02;
 /// 95 % bounds in standard deviations.
