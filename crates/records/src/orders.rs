@@ -455,7 +455,9 @@ impl OrdersFile {
         let table = Orders::read(&self.path).map(Arc::new).map_err(Arc::new);
         let is_settled =
             |(_, changed): &FileState| changed.elapsed().is_ok_and(|age| age > SETTLED);
-        let settled = now.filter(is_settled);
+        // What could not be read for a moment, as on a share, is tried again.
+        let is_read = !matches!(&table, Err(error) if matches!(**error, OrdersError::File(_)));
+        let settled = now.filter(|now| is_read && is_settled(now));
         self.read = settled.map(|state| (state, table.clone()));
         table
     }

@@ -372,6 +372,12 @@ mod tests {
     #[test]
     fn a_part_that_is_only_in_doubt_where_it_is_has_its_name_in_the_title() {
         let mut past = refused_door(StoredVerdict::Rejected);
+        let ambiguous = Rejection::AmbiguousPose {
+            part: "front_door".into(),
+            margin: 0.1,
+            threshold: 0.4,
+        };
+        past.summary.reason = Some(Refusal::Rejected(ambiguous).kind());
         let mut shown = |score| {
             past.summary.score = Some(score);
             inspection_title(&past.summary)
