@@ -406,14 +406,36 @@ mod tests {
         rows_at(10.0, max_parts, step, num, frame)
     }
 
-    /// The same at this many frames a second. All are watched for motion.
+    /// The same at this many frames a second.
     fn rows_at(
         rate: f64,
         max_parts: usize,
         step: u64,
         num: u64,
-        mut frame: impl FnMut(u64) -> Arc<SceneCloud>,
+        frame: impl FnMut(u64) -> Arc<SceneCloud>,
     ) -> Vec<Row> {
+        let entry = |seconds: f64, inspection: &Inspection, hung, is_still| {
+            let verdict = &inspection.verdict;
+            let name = verdict.guess().unwrap_or_default().to_owned();
+            (seconds, name, is_still && verdict.is_accepted(), hung)
+        };
+        let rows = followed_at(rate, max_parts, step, num, frame, entry);
+        let mut ids: Vec<&HungId> = rows.iter().map(|(.., hung)| hung).collect();
+        ids.sort();
+        ids.dedup();
+        assert_eq!(ids.len(), rows.len(), "each is another part: {rows:?}");
+        rows
+    }
+
+    /// What is recorded, as `entry` of the seconds gives it. All frames are watched for motion.
+    fn followed_at<E>(
+        rate: f64,
+        max_parts: usize,
+        step: u64,
+        num: u64,
+        mut frame: impl FnMut(u64) -> Arc<SceneCloud>,
+        entry: impl Fn(f64, &Inspection, HungId, bool) -> E,
+    ) -> Vec<E> {
         let (library, mut recipe) = (shipped_library(), Recipe::default());
         recipe.segment.max_parts = max_parts;
         let mut followed = PartFollower::default();
@@ -431,18 +453,12 @@ mod tests {
             let mut found = run_all(&scene, &library, &recipe, &Unwatched).expect("run");
             followed.refuse_if_moving(&mut found);
             let entry = |inspection: &Inspection, hung, is_still| {
-                let verdict = &inspection.verdict;
-                let name = verdict.guess().unwrap_or_default().to_owned();
-                (seconds, name, is_still && verdict.is_accepted(), hung)
+                entry(seconds, inspection, hung, is_still)
             };
             let middle = |one: &Inspection| one.middle(&library);
             rows.extend(followed.take(&scene, found, middle, &recipe, entry));
         }
         rows.extend(followed.end());
-        let mut ids: Vec<&HungId> = rows.iter().map(|(.., hung)| hung).collect();
-        ids.sort();
-        ids.dedup();
-        assert_eq!(ids.len(), rows.len(), "each is another part: {rows:?}");
         rows
     }
 
@@ -501,6 +517,27 @@ mod tests {
         let mut frame = hanging((PartKind::Fender, 3), at_rest);
         let rows = rows_at(2.0, 1, 1, 13, |number| frame(15 * number));
         assert!(rows.iter().all(|(_, _, is_ok, _)| !is_ok), "{rows:?}");
+    }
+
+    #[test]
+    fn of_two_in_thirty_frames_the_pose_is_that_of_the_part_at_rest_not_of_one_coming_to_rest() {
+        let follow = |moved: fn(f64) -> RigidTransform| {
+            let frame = hanging((PartKind::Fender, 3), moved);
+            let entry = |seconds, inspection: &Inspection, _, _| {
+                let pose = inspection.found_pose().expect("a pose");
+                let place = pose.camera_from_part().translation.vector;
+                (seconds, inspection.verdict.is_accepted(), place)
+            };
+            followed_at(30.0, 1, 15, 60, frame, entry)
+        };
+        // It comes to rest over the first three frames, and the first of them is inspected.
+        let comes = |t: f64| RigidTransform::translation(0.0, 0.0, 0.05 * (0.1 - t).max(0.0));
+        let (rests, comes) = (follow(at_rest), follow(comes));
+        let ([(at, true, place)], [(later, true, found)]) = (&rests[..], &comes[..]) else {
+            panic!("{rests:?}, {comes:?}");
+        };
+        assert!((at - later).abs() < 1e-9, "nothing seen to move");
+        assert!((place - found).norm() < 3e-4, "{rests:?}, {comes:?}");
     }
 
     #[test]

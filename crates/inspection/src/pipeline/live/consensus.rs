@@ -6,7 +6,7 @@
 //! actual frame.
 //!
 //! Of a computer that inspects few frames, fewer are enough if they are far apart and all say the same: while nothing moves between
-//! them, frames in quick succession would add little.
+//! them, frames in quick succession would add little. None of them may show the part still coming to rest, as one among many may.
 
 use std::{collections::VecDeque, time::Duration};
 
@@ -136,14 +136,23 @@ impl Consensus {
             .clamp(1, self.params.num_frames.max(1))
     }
 
-    /// The verdict of the frames from `since` on; `None` while they are too few.
-    pub fn agreed(&self, since: Duration, accept: &AcceptParams) -> Option<ConsensusVerdict> {
-        let frames: Vec<&FrameVerdict> = self
+    /// The verdict of the frames from `since` on; `None` while they are too few. Where few are enough, only those from `rested`
+    /// on count.
+    pub fn agreed(
+        &self,
+        since: Duration,
+        rested: Duration,
+        accept: &AcceptParams,
+    ) -> Option<ConsensusVerdict> {
+        let mut frames: Vec<&FrameVerdict> = self
             .frames
             .iter()
             .filter(|frame| frame.at >= since)
             .collect();
         let is_enough = frames.len() >= self.least_frames();
+        if !is_enough {
+            frames.retain(|frame| frame.at >= rested);
+        }
         if !is_enough && !self.spans(&frames) {
             return None;
         }

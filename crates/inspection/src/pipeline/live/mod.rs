@@ -93,6 +93,8 @@ pub struct LiveTracker {
     /// Sees the frames of a source whose every frame is passed to [`look`](Self::look).
     steady: MotionDetector,
     motion: SceneMotion,
+    /// Within this time after the scene came to rest, a part may still move a little.
+    spell: Duration,
     pace: PaceMeter,
     average: DepthAverage,
     consensus_params: ConsensusParams,
@@ -109,6 +111,7 @@ impl LiveTracker {
         Self {
             steady: MotionDetector::new(params.steady.clone()),
             motion: SceneMotion::default(),
+            spell: params.steady.spell(),
             pace: PaceMeter::default(),
             average: DepthAverage::over(params.average),
             consensus_params: params.consensus.clone(),
@@ -184,7 +187,7 @@ impl LiveTracker {
         let standing = match self.motion.state {
             MotionState::Watching | MotionState::Moving => LiveVerdict::Open,
             MotionState::Steady { since, .. } => {
-                if let Some(agreed) = consensus.agreed(since, accept) {
+                if let Some(agreed) = consensus.agreed(since, since + self.spell, accept) {
                     LiveVerdict::Counted(Box::new(unless_out_of_line(agreed, inspection)))
                 } else {
                     let (num_frames, needed) = consensus.gathered(since);
