@@ -74,10 +74,11 @@ impl SeenPart {
         shows_part && self.spot.is_some() && self.verdict.counted().is_none()
     }
 
-    /// Of a part of which too few frames were inspected, says that the computer is too slow: what single frames say is no verdict,
-    /// good or bad.
+    /// Of a part that hangs still, but of which too few frames were inspected, says that the computer is too slow: what single
+    /// frames say is no verdict, good or bad.
     fn refuse_at_pace(&mut self, pace: Pace) {
-        if !self.is_waiting() || self.inspection.verdict.is_unknown() {
+        let is_still = matches!(self.verdict, LiveVerdict::Gathering { .. });
+        if !is_still || self.inspection.verdict.is_unknown() {
             return;
         }
         if let Verdict::Part { part, rejected, .. } = &mut self.inspection.verdict {
@@ -132,7 +133,7 @@ impl<'a> SeenFrame<'a> {
         let is_moving = tracker.stillness() == MotionState::Moving;
         let waits = !is_moving && parts.iter().any(SeenPart::is_waiting);
         tracker.judged(self.number, waits);
-        if let Some(pace) = tracker.slow().filter(|_| !is_moving) {
+        if let Some(pace) = tracker.slow() {
             for part in &mut parts {
                 part.refuse_at_pace(pace);
             }
@@ -546,6 +547,32 @@ mod tests {
         let [first, second] = [accepted(&rows, 0.0..6.0), accepted(&rows, 6.0..12.0)];
         assert_eq!((first.len(), second.len()), (1, 1), "{rows:?}");
         assert_ne!(first, second);
+    }
+
+    #[test]
+    fn only_a_part_that_is_known_to_hang_still_is_refused_for_a_slow_computer() {
+        let pace = Pace {
+            num_inspected: 1,
+            num_frames: 50,
+        };
+        let is_refused = |verdict| {
+            let mut seen = SeenPart::alone(nothing_there(), None);
+            let part = String::from("door");
+            seen.inspection.verdict = Verdict::Part {
+                part: part.clone(),
+                score: 0.99,
+                margin: 0.9,
+                rejected: Some(Rejection::NotSteady { part }),
+                is_approximate: false,
+            };
+            (seen.spot, seen.verdict) = (Some(0), verdict);
+            seen.refuse_at_pace(pace);
+            let rejected = seen.inspection.verdict.rejected();
+            matches!(rejected, Some(Rejection::TooSlow { .. }))
+        };
+        let (num_frames, needed) = (1, 5);
+        assert!(is_refused(LiveVerdict::Gathering { num_frames, needed }));
+        assert!(!is_refused(LiveVerdict::Open));
     }
 
     #[test]
