@@ -160,8 +160,9 @@ impl LiveTracker {
             self.average.clear();
             self.consensus.clear();
         }
-        self.average.add(&scene);
-        if self.motion.state.is_steady() {
+        self.average.add(&scene, at);
+        if let MotionState::Steady { since, .. } = self.motion.state {
+            self.average.forget_before(since);
             self.average.mean().unwrap_or(scene)
         } else {
             scene
