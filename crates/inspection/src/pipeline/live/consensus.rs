@@ -66,13 +66,12 @@ pub struct ConsensusVerdict {
 }
 
 impl ConsensusVerdict {
-    /// True if all frames say the same.
-    fn is_unanimous(&self) -> bool {
-        let is_split = matches!(
-            self.verdict.rejected(),
-            Some(Rejection::Undecided { .. } | Rejection::PosesApart { .. })
-        );
-        self.num_agreeing == self.num_frames && !is_split
+    /// True if all of these frames say what it says: they accept the part, or refuse it for one kind of reason.
+    fn is_unanimous(&self, frames: &[&FrameVerdict]) -> bool {
+        let kind_of = |verdict: &Verdict| verdict.refusal().map(|why| why.kind());
+        let kind = kind_of(&self.verdict);
+        let mut kinds = frames.iter().map(|frame| kind_of(&frame.verdict));
+        self.num_agreeing == self.num_frames && kinds.all(|of_frame| of_frame == kind)
     }
 }
 
@@ -157,7 +156,7 @@ impl Consensus {
             return None;
         }
         let agreed = self.agreed_by(&frames, accept)?;
-        (is_enough || agreed.is_unanimous()).then_some(agreed)
+        (is_enough || agreed.is_unanimous(&frames)).then_some(agreed)
     }
 
     /// True if the first and the last frame are far enough apart for few frames to be enough.

@@ -104,6 +104,19 @@ fn few_frames_are_enough_if_they_are_far_apart_and_all_say_the_same() {
     let split = [Some(0.99), None, Some(0.99)];
     assert_eq!(agreed(500, frames(&split, 0.0)), None);
     assert_eq!(agreed(500, frames(&[Some(0.99); 3], 0.02)), None);
+    // One that accepts the part, or refuses it for another reason, and one for which it fits another part almost as well.
+    let alike = Rejection::SmallMargin {
+        part: "door".into(),
+        other: "door_copy".into(),
+        margin: 0.02,
+        threshold: 0.05,
+    };
+    for rejected in [None, Some(unlike("door"))] {
+        let mut two = frames(&[Some(0.99); 2], 0.0);
+        two[0].0 = part("door", 0.97, rejected);
+        two[1].0 = part("door", 0.97, Some(alike.clone()));
+        assert_eq!(agreed(1000, two), None);
+    }
 }
 
 #[test]
