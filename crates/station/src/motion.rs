@@ -21,9 +21,12 @@ use std::{
 use jiff::Timestamp;
 
 use capture::{BackpressurePolicy, CaptureError, Captured, Feed, FeedItem, SourceSpec};
-use geometry::{clock, error::lock};
+use geometry::{
+    clock,
+    error::{guarded, lock},
+};
 use inspection::pipeline::live::{MotionDetector, MotionState, SceneMotion, SteadyParams};
-use stages::scene::scene_from_image;
+use stages::scene::{SceneCloud, scene_from_image};
 
 /// How long the thread waits for a frame before it checks whether to end.
 const POLL_INTERVAL: Duration = Duration::from_millis(100);
@@ -171,7 +174,7 @@ impl Seen {
                     let since = looked_at.and_then(|looked_at| at.checked_sub(looked_at));
                     if since.is_none_or(|since| since >= MIN_FRAME_INTERVAL) {
                         looked_at = Some(at);
-                        detector.see(&scene_from_image(captured.image), at);
+                        look(&mut detector, || scene_from_image(captured.image), at);
                     }
                     let mut last = lock(&self.last);
                     last.frames.add(at, detector.motion());
@@ -184,6 +187,13 @@ impl Seen {
         }
         lock(&self.last).is_over = true;
         self.changed.notify_all();
+    }
+}
+
+/// Passes a frame to the detector. After a panic it starts anew, so that nobody waits for a watch that is dead.
+fn look(detector: &mut MotionDetector, scene: impl FnOnce() -> SceneCloud, at: Duration) {
+    if guarded(|| detector.see(&scene(), at)).is_err() {
+        detector.restart();
     }
 }
 
@@ -200,6 +210,31 @@ impl Drop for MotionWatch {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use geometry::rigid::RigidTransform;
+    use simulate::{PartKind, SensorNoise, fixtures::HangingPart};
+    use stages::scene::scene_from_frame;
+
+    #[test]
+    fn after_a_panic_the_watch_goes_on_with_another_run() {
+        let part = HangingPart::new(PartKind::Fender, 3);
+        let mut detector = MotionDetector::new(SteadyParams::default());
+        let mut see = |number: u64, fails: bool| {
+            let scene = || {
+                assert!(!fails, "no scene");
+                let noise = SensorNoise::kinect(number);
+                scene_from_frame(&part.frame(noise, &RigidTransform::identity()))
+            };
+            look(&mut detector, scene, Duration::from_secs(number) / 10);
+            detector.motion()
+        };
+        let before = (0..20).fold(SceneMotion::default(), |_, number| see(number, false));
+        assert!(before.state.is_steady());
+        let failed = see(20, true);
+        assert_eq!(failed.state, MotionState::Watching);
+        assert_ne!(failed.run, before.run);
+        let after = (21..41).fold(failed, |_, number| see(number, false));
+        assert!(after.state.is_steady() && after.run != before.run);
+    }
 
     #[test]
     fn a_frame_has_the_state_after_it_and_one_passed_over_that_after_the_next() {

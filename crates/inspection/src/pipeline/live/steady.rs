@@ -202,6 +202,12 @@ impl MotionDetector {
         self.stillness
     }
 
+    /// Forgets every frame: those that follow are of another run.
+    pub fn restart(&mut self) {
+        self.grid = None;
+        self.restart_consensus(MotionState::Watching, self.last_at);
+    }
+
     fn is_empty(&self) -> bool {
         self.spells.is_empty() && self.filling.num_frames == 0
     }
