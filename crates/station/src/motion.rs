@@ -28,7 +28,7 @@ use geometry::{
 use inspection::pipeline::live::{MotionDetector, MotionState, SceneMotion, SteadyParams};
 use stages::scene::{SceneCloud, scene_from_image};
 
-/// How long the thread waits for a frame before it checks whether to end.
+/// How long the thread waits for a frame, and others for the thread, before they check whether to end.
 const POLL_INTERVAL: Duration = Duration::from_millis(100);
 /// Frames that follow sooner are not looked at: a faster camera shows no more of a motion.
 const MIN_FRAME_INTERVAL: Duration = Duration::from_millis(25);
@@ -136,7 +136,7 @@ impl MotionWatch {
 
     /// Whether the scene moves, by the frames up to that of this time at least.
     pub(super) fn state_at(&self, at: Duration) -> MotionState {
-        let last = self.seen.up_to(at);
+        let last = self.seen.up_to(at, || false);
         match last.frames.last().state {
             // It cannot be told of a frame that was not seen.
             MotionState::Steady { .. } if last.frames.at() < Some(at) => MotionState::Watching,
@@ -144,23 +144,35 @@ impl MotionWatch {
         }
     }
 
-    /// What was known of the scene after this frame, by all frames up to it; nothing if they were not seen in time.
-    pub fn motion_of(&self, captured: &Captured) -> SceneMotion {
-        let at = time_of(captured);
-        if captured.arrived < self.began {
+    /// What was known of the scene after the frame that was taken and arrived then, by all frames up to it; nothing if they
+    /// were not seen in time or before `is_ending`. Build the frame's own scene first: the watch sees it meanwhile.
+    pub fn motion_of(
+        &self,
+        taken_at: Timestamp,
+        arrived: Instant,
+        is_ending: impl Fn() -> bool,
+    ) -> SceneMotion {
+        if arrived < self.began {
             return SceneMotion::default();
         }
-        self.seen.up_to(at).frames.motion_at(at)
+        let at = since_epoch(taken_at);
+        self.seen.up_to(at, is_ending).frames.motion_at(at)
     }
 }
 
 impl Seen {
-    /// Waits until a frame of this time was seen.
-    fn up_to(&self, at: Duration) -> MutexGuard<'_, LastSeen> {
-        let last = lock(&self.last);
-        let is_behind = |last: &mut LastSeen| !last.is_over && last.frames.at() < Some(at);
-        let waited = self.changed.wait_timeout_while(last, MAX_LAG, is_behind);
-        let (last, _) = waited.unwrap_or_else(PoisonError::into_inner);
+    /// Waits until a frame of this time was seen, or `is_ending`.
+    fn up_to(&self, at: Duration, is_ending: impl Fn() -> bool) -> MutexGuard<'_, LastSeen> {
+        let asked = Instant::now();
+        let mut last = lock(&self.last);
+        while !last.is_over
+            && last.frames.at() < Some(at)
+            && asked.elapsed() < MAX_LAG
+            && !is_ending()
+        {
+            let waited = self.changed.wait_timeout(last, POLL_INTERVAL);
+            (last, _) = waited.unwrap_or_else(PoisonError::into_inner);
+        }
         last
     }
 
@@ -213,6 +225,15 @@ mod tests {
     use geometry::rigid::RigidTransform;
     use simulate::{PartKind, SensorNoise, fixtures::HangingPart};
     use stages::scene::scene_from_frame;
+
+    #[test]
+    fn who_waits_for_the_watch_stops_when_told_to() {
+        let seen = Seen::default();
+        let asked = Instant::now();
+        let last = seen.up_to(Duration::from_secs(1), || asked.elapsed() >= POLL_INTERVAL);
+        assert!(!last.is_over && last.frames.at().is_none());
+        assert!(asked.elapsed() < MAX_LAG, "stops at once");
+    }
 
     #[test]
     fn after_a_panic_the_watch_goes_on_with_another_run() {
