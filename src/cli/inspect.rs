@@ -343,11 +343,13 @@ fn to_inspect(
     scenes: &mut CameraScenes,
     console: &Console,
 ) -> SceneToInspect {
+    let (taken_at, arrived) = (captured.taken_at, captured.arrived);
     SceneToInspect {
         path: Path::new(&captured.name).to_owned(),
         subject: Subject::of_capture(&captured, source, status.num_dropped),
         captured_at: Some(NewFrame::of_source(source).captured_at(&captured)),
-        watched: watch.map(|watch| watch.motion_of(&captured)),
         scene: scene_of(captured, scenes, console),
+        // Last, as it may wait.
+        watched: watch.map(|watch| watch.motion_of(taken_at, arrived, || false)),
     }
 }

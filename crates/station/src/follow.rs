@@ -74,10 +74,11 @@ impl SeenPart {
         shows_part && self.spot.is_some() && self.verdict.counted().is_none()
     }
 
-    /// Of a part of which too few frames were inspected, says that the computer is too slow: what single frames say is no verdict,
-    /// good or bad.
+    /// Of a part that hangs still, but of which too few frames were inspected, says that the computer is too slow: what single
+    /// frames say is no verdict, good or bad.
     fn refuse_at_pace(&mut self, pace: Pace) {
-        if !self.is_waiting() || self.inspection.verdict.is_unknown() {
+        let is_still = matches!(self.verdict, LiveVerdict::Gathering { .. });
+        if !is_still || self.inspection.verdict.is_unknown() {
             return;
         }
         if let Verdict::Part { part, rejected, .. } = &mut self.inspection.verdict {
@@ -132,7 +133,7 @@ impl<'a> SeenFrame<'a> {
         let is_moving = tracker.stillness() == MotionState::Moving;
         let waits = !is_moving && parts.iter().any(SeenPart::is_waiting);
         tracker.judged(self.number, waits);
-        if let Some(pace) = tracker.slow().filter(|_| !is_moving) {
+        if let Some(pace) = tracker.slow() {
             for part in &mut parts {
                 part.refuse_at_pace(pace);
             }
@@ -406,14 +407,36 @@ mod tests {
         rows_at(10.0, max_parts, step, num, frame)
     }
 
-    /// The same at this many frames a second. All are watched for motion.
+    /// The same at this many frames a second.
     fn rows_at(
         rate: f64,
         max_parts: usize,
         step: u64,
         num: u64,
-        mut frame: impl FnMut(u64) -> Arc<SceneCloud>,
+        frame: impl FnMut(u64) -> Arc<SceneCloud>,
     ) -> Vec<Row> {
+        let entry = |seconds: f64, inspection: &Inspection, hung, is_still| {
+            let verdict = &inspection.verdict;
+            let name = verdict.guess().unwrap_or_default().to_owned();
+            (seconds, name, is_still && verdict.is_accepted(), hung)
+        };
+        let rows = followed_at(rate, max_parts, step, num, frame, entry);
+        let mut ids: Vec<&HungId> = rows.iter().map(|(.., hung)| hung).collect();
+        ids.sort();
+        ids.dedup();
+        assert_eq!(ids.len(), rows.len(), "each is another part: {rows:?}");
+        rows
+    }
+
+    /// What is recorded, as `entry` of the seconds gives it. All frames are watched for motion.
+    fn followed_at<E>(
+        rate: f64,
+        max_parts: usize,
+        step: u64,
+        num: u64,
+        mut frame: impl FnMut(u64) -> Arc<SceneCloud>,
+        entry: impl Fn(f64, &Inspection, HungId, bool) -> E,
+    ) -> Vec<E> {
         let (library, mut recipe) = (shipped_library(), Recipe::default());
         recipe.segment.max_parts = max_parts;
         let mut followed = PartFollower::default();
@@ -431,18 +454,12 @@ mod tests {
             let mut found = run_all(&scene, &library, &recipe, &Unwatched).expect("run");
             followed.refuse_if_moving(&mut found);
             let entry = |inspection: &Inspection, hung, is_still| {
-                let verdict = &inspection.verdict;
-                let name = verdict.guess().unwrap_or_default().to_owned();
-                (seconds, name, is_still && verdict.is_accepted(), hung)
+                entry(seconds, inspection, hung, is_still)
             };
             let middle = |one: &Inspection| one.middle(&library);
             rows.extend(followed.take(&scene, found, middle, &recipe, entry));
         }
         rows.extend(followed.end());
-        let mut ids: Vec<&HungId> = rows.iter().map(|(.., hung)| hung).collect();
-        ids.sort();
-        ids.dedup();
-        assert_eq!(ids.len(), rows.len(), "each is another part: {rows:?}");
         rows
     }
 
@@ -504,11 +521,58 @@ mod tests {
     }
 
     #[test]
+    fn of_two_in_thirty_frames_the_pose_is_that_of_the_part_at_rest_not_of_one_coming_to_rest() {
+        let follow = |moved: fn(f64) -> RigidTransform| {
+            let frame = hanging((PartKind::Fender, 3), moved);
+            let entry = |seconds, inspection: &Inspection, _, _| {
+                let pose = inspection.found_pose().expect("a pose");
+                let place = pose.camera_from_part().translation.vector;
+                (seconds, inspection.verdict.is_accepted(), place)
+            };
+            followed_at(30.0, 1, 15, 60, frame, entry)
+        };
+        // It comes to rest over the first three frames, and the first of them is inspected.
+        let comes = |t: f64| RigidTransform::translation(0.0, 0.0, 0.05 * (0.1 - t).max(0.0));
+        let (rests, comes) = (follow(at_rest), follow(comes));
+        let ([(at, true, place)], [(later, true, found)]) = (&rests[..], &comes[..]) else {
+            panic!("{rests:?}, {comes:?}");
+        };
+        assert!((at - later).abs() < 1e-9, "nothing seen to move");
+        assert!((place - found).norm() < 3e-4, "{rests:?}, {comes:?}");
+    }
+
+    #[test]
     fn of_two_frames_a_second_two_parts_one_after_the_other_are_two() {
         let rows = rows_of(1, 5, 116, line(CellScene::Line { every: 6.0 }, 116));
         let [first, second] = [accepted(&rows, 0.0..6.0), accepted(&rows, 6.0..12.0)];
         assert_eq!((first.len(), second.len()), (1, 1), "{rows:?}");
         assert_ne!(first, second);
+    }
+
+    #[test]
+    fn only_a_part_that_is_known_to_hang_still_is_refused_for_a_slow_computer() {
+        let pace = Pace {
+            num_inspected: 1,
+            num_frames: 50,
+        };
+        let is_refused = |verdict| {
+            let mut seen = SeenPart::alone(nothing_there(), None);
+            let part = String::from("door");
+            seen.inspection.verdict = Verdict::Part {
+                part: part.clone(),
+                score: 0.99,
+                margin: 0.9,
+                rejected: Some(Rejection::NotSteady { part }),
+                is_approximate: false,
+            };
+            (seen.spot, seen.verdict) = (Some(0), verdict);
+            seen.refuse_at_pace(pace);
+            let rejected = seen.inspection.verdict.rejected();
+            matches!(rejected, Some(Rejection::TooSlow { .. }))
+        };
+        let (num_frames, needed) = (1, 5);
+        assert!(is_refused(LiveVerdict::Gathering { num_frames, needed }));
+        assert!(!is_refused(LiveVerdict::Open));
     }
 
     #[test]

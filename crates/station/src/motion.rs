@@ -21,11 +21,14 @@ use std::{
 use jiff::Timestamp;
 
 use capture::{BackpressurePolicy, CaptureError, Captured, Feed, FeedItem, SourceSpec};
-use geometry::{clock, error::lock};
+use geometry::{
+    clock,
+    error::{guarded, lock},
+};
 use inspection::pipeline::live::{MotionDetector, MotionState, SceneMotion, SteadyParams};
-use stages::scene::scene_from_image;
+use stages::scene::{SceneCloud, scene_from_image};
 
-/// How long the thread waits for a frame before it checks whether to end.
+/// How long the thread waits for a frame, and others for the thread, before they check whether to end.
 const POLL_INTERVAL: Duration = Duration::from_millis(100);
 /// Frames that follow sooner are not looked at: a faster camera shows no more of a motion.
 const MIN_FRAME_INTERVAL: Duration = Duration::from_millis(25);
@@ -133,7 +136,7 @@ impl MotionWatch {
 
     /// Whether the scene moves, by the frames up to that of this time at least.
     pub(super) fn state_at(&self, at: Duration) -> MotionState {
-        let last = self.seen.up_to(at);
+        let last = self.seen.up_to(at, || false);
         match last.frames.last().state {
             // It cannot be told of a frame that was not seen.
             MotionState::Steady { .. } if last.frames.at() < Some(at) => MotionState::Watching,
@@ -141,23 +144,35 @@ impl MotionWatch {
         }
     }
 
-    /// What was known of the scene after this frame, by all frames up to it; nothing if they were not seen in time.
-    pub fn motion_of(&self, captured: &Captured) -> SceneMotion {
-        let at = time_of(captured);
-        if captured.arrived < self.began {
+    /// What was known of the scene after the frame that was taken and arrived then, by all frames up to it; nothing if they
+    /// were not seen in time or before `is_ending`. Build the frame's own scene first: the watch sees it meanwhile.
+    pub fn motion_of(
+        &self,
+        taken_at: Timestamp,
+        arrived: Instant,
+        is_ending: impl Fn() -> bool,
+    ) -> SceneMotion {
+        if arrived < self.began {
             return SceneMotion::default();
         }
-        self.seen.up_to(at).frames.motion_at(at)
+        let at = since_epoch(taken_at);
+        self.seen.up_to(at, is_ending).frames.motion_at(at)
     }
 }
 
 impl Seen {
-    /// Waits until a frame of this time was seen.
-    fn up_to(&self, at: Duration) -> MutexGuard<'_, LastSeen> {
-        let last = lock(&self.last);
-        let is_behind = |last: &mut LastSeen| !last.is_over && last.frames.at() < Some(at);
-        let waited = self.changed.wait_timeout_while(last, MAX_LAG, is_behind);
-        let (last, _) = waited.unwrap_or_else(PoisonError::into_inner);
+    /// Waits until a frame of this time was seen, or `is_ending`.
+    fn up_to(&self, at: Duration, is_ending: impl Fn() -> bool) -> MutexGuard<'_, LastSeen> {
+        let asked = Instant::now();
+        let mut last = lock(&self.last);
+        while !last.is_over
+            && last.frames.at() < Some(at)
+            && asked.elapsed() < MAX_LAG
+            && !is_ending()
+        {
+            let waited = self.changed.wait_timeout(last, POLL_INTERVAL);
+            (last, _) = waited.unwrap_or_else(PoisonError::into_inner);
+        }
         last
     }
 
@@ -171,7 +186,7 @@ impl Seen {
                     let since = looked_at.and_then(|looked_at| at.checked_sub(looked_at));
                     if since.is_none_or(|since| since >= MIN_FRAME_INTERVAL) {
                         looked_at = Some(at);
-                        detector.see(&scene_from_image(captured.image), at);
+                        look(&mut detector, || scene_from_image(captured.image), at);
                     }
                     let mut last = lock(&self.last);
                     last.frames.add(at, detector.motion());
@@ -184,6 +199,13 @@ impl Seen {
         }
         lock(&self.last).is_over = true;
         self.changed.notify_all();
+    }
+}
+
+/// Passes a frame to the detector. After a panic it starts anew, so that nobody waits for a watch that is dead.
+fn look(detector: &mut MotionDetector, scene: impl FnOnce() -> SceneCloud, at: Duration) {
+    if guarded(|| detector.see(&scene(), at)).is_err() {
+        detector.restart();
     }
 }
 
@@ -200,6 +222,40 @@ impl Drop for MotionWatch {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use geometry::rigid::RigidTransform;
+    use simulate::{PartKind, SensorNoise, fixtures::HangingPart};
+    use stages::scene::scene_from_frame;
+
+    #[test]
+    fn who_waits_for_the_watch_stops_when_told_to() {
+        let seen = Seen::default();
+        let asked = Instant::now();
+        let last = seen.up_to(Duration::from_secs(1), || asked.elapsed() >= POLL_INTERVAL);
+        assert!(!last.is_over && last.frames.at().is_none());
+        assert!(asked.elapsed() < MAX_LAG, "stops at once");
+    }
+
+    #[test]
+    fn after_a_panic_the_watch_goes_on_with_another_run() {
+        let part = HangingPart::new(PartKind::Fender, 3);
+        let mut detector = MotionDetector::new(SteadyParams::default());
+        let mut see = |number: u64, fails: bool| {
+            let scene = || {
+                assert!(!fails, "no scene");
+                let noise = SensorNoise::kinect(number);
+                scene_from_frame(&part.frame(noise, &RigidTransform::identity()))
+            };
+            look(&mut detector, scene, Duration::from_secs(number) / 10);
+            detector.motion()
+        };
+        let before = (0..20).fold(SceneMotion::default(), |_, number| see(number, false));
+        assert!(before.state.is_steady());
+        let failed = see(20, true);
+        assert_eq!(failed.state, MotionState::Watching);
+        assert_ne!(failed.run, before.run);
+        let after = (21..41).fold(failed, |_, number| see(number, false));
+        assert!(after.state.is_steady() && after.run != before.run);
+    }
 
     #[test]
     fn a_frame_has_the_state_after_it_and_one_passed_over_that_after_the_next() {

@@ -4,7 +4,7 @@
 //! The median of the valid ones selects the surface; the mean is over those that lie on it. If no more than half do,
 //! the pixel flickers between surfaces and gets no reading rather than one in mid-air.
 
-use std::{collections::VecDeque, sync::Arc};
+use std::{collections::VecDeque, sync::Arc, time::Duration};
 
 use geometry::{
     parallel::{map_in_order, num_cores},
@@ -25,7 +25,8 @@ const MIN_FRAME_SHARE: f32 = 0.25;
 #[derive(Debug, Default)]
 pub struct DepthAverage {
     num_frames: usize,
-    frames: VecDeque<Arc<SceneCloud>>,
+    /// With their times.
+    frames: VecDeque<(Duration, Arc<SceneCloud>)>,
 }
 
 impl DepthAverage {
@@ -42,20 +43,25 @@ impl DepthAverage {
         self.frames.clear();
     }
 
+    /// Forgets the frames from before this time, because the scene was not still then.
+    pub fn forget_before(&mut self, since: Duration) {
+        self.frames.retain(|(at, _)| *at >= since);
+    }
+
     /// Frames that the next mean is taken over.
     pub fn num_frames(&self) -> usize {
         self.frames.len()
     }
 
-    /// Adds a frame; if its camera or its size differs, the earlier frames are forgotten.
-    pub fn add(&mut self, scene: &Arc<SceneCloud>) {
-        let is_same = |known: &Arc<SceneCloud>| {
+    /// Adds the frame taken at `at`; if its camera or its size differs, the earlier frames are forgotten.
+    pub fn add(&mut self, scene: &Arc<SceneCloud>, at: Duration) {
+        let is_same = |(_, known): &(Duration, Arc<SceneCloud>)| {
             known.cloud.grid == scene.cloud.grid && known.intrinsics == scene.intrinsics
         };
         if !self.frames.back().is_some_and(is_same) {
             self.frames.clear();
         }
-        self.frames.push_back(Arc::clone(scene));
+        self.frames.push_back((at, Arc::clone(scene)));
         while self.frames.len() > self.num_frames.max(1) {
             self.frames.pop_front();
         }
@@ -64,7 +70,7 @@ impl DepthAverage {
     /// The last scene with every depth averaged; `None` before the first frame. A scene without a pinhole camera, or
     /// a single one, is returned unchanged.
     pub fn mean(&self) -> Option<Arc<SceneCloud>> {
-        let last = self.frames.back()?;
+        let (_, last) = self.frames.back()?;
         let (Some(grid), Some(camera), true) =
             (last.cloud.grid, last.intrinsics, self.frames.len() > 1)
         else {
@@ -81,7 +87,10 @@ impl DepthAverage {
                 let pixels = v * grid.width..(v + 1) * grid.width;
                 let depth = |pixel: usize| {
                     readings.clear();
-                    let depths = self.frames.iter().map(|scene| scene.cloud.points[pixel].z);
+                    let depths = self
+                        .frames
+                        .iter()
+                        .map(|(_, scene)| scene.cloud.points[pixel].z);
                     readings.extend(depths.filter(|z| *z > 0.0).map(f32::recip));
                     settled(readings, self.frames.len(), gate).map_or(f32::NAN, f32::recip)
                 };

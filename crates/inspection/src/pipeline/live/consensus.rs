@@ -6,7 +6,7 @@
 //! actual frame.
 //!
 //! Of a computer that inspects few frames, fewer are enough if they are far apart and all say the same: while nothing moves between
-//! them, frames in quick succession would add little.
+//! them, frames in quick succession would add little. None of them may show the part still coming to rest, as one among many may.
 
 use std::{collections::VecDeque, time::Duration};
 
@@ -66,13 +66,12 @@ pub struct ConsensusVerdict {
 }
 
 impl ConsensusVerdict {
-    /// True if all frames say the same.
-    fn is_unanimous(&self) -> bool {
-        let is_split = matches!(
-            self.verdict.rejected(),
-            Some(Rejection::Undecided { .. } | Rejection::PosesApart { .. })
-        );
-        self.num_agreeing == self.num_frames && !is_split
+    /// True if all of these frames say what it says: they accept the part, or refuse it for one kind of reason.
+    fn is_unanimous(&self, frames: &[&FrameVerdict]) -> bool {
+        let kind_of = |verdict: &Verdict| verdict.refusal().map(|why| why.kind());
+        let kind = kind_of(&self.verdict);
+        let mut kinds = frames.iter().map(|frame| kind_of(&frame.verdict));
+        self.num_agreeing == self.num_frames && kinds.all(|of_frame| of_frame == kind)
     }
 }
 
@@ -136,19 +135,28 @@ impl Consensus {
             .clamp(1, self.params.num_frames.max(1))
     }
 
-    /// The verdict of the frames from `since` on; `None` while they are too few.
-    pub fn agreed(&self, since: Duration, accept: &AcceptParams) -> Option<ConsensusVerdict> {
-        let frames: Vec<&FrameVerdict> = self
+    /// The verdict of the frames from `since` on; `None` while they are too few. Where few are enough, only those from `rested`
+    /// on count.
+    pub fn agreed(
+        &self,
+        since: Duration,
+        rested: Duration,
+        accept: &AcceptParams,
+    ) -> Option<ConsensusVerdict> {
+        let mut frames: Vec<&FrameVerdict> = self
             .frames
             .iter()
             .filter(|frame| frame.at >= since)
             .collect();
         let is_enough = frames.len() >= self.least_frames();
+        if !is_enough {
+            frames.retain(|frame| frame.at >= rested);
+        }
         if !is_enough && !self.spans(&frames) {
             return None;
         }
         let agreed = self.agreed_by(&frames, accept)?;
-        (is_enough || agreed.is_unanimous()).then_some(agreed)
+        (is_enough || agreed.is_unanimous(&frames)).then_some(agreed)
     }
 
     /// True if the first and the last frame are far enough apart for few frames to be enough.

@@ -93,6 +93,8 @@ pub struct LiveTracker {
     /// Sees the frames of a source whose every frame is passed to [`look`](Self::look).
     steady: MotionDetector,
     motion: SceneMotion,
+    /// Within this time after the scene came to rest, a part may still move a little.
+    spell: Duration,
     pace: PaceMeter,
     average: DepthAverage,
     consensus_params: ConsensusParams,
@@ -109,6 +111,7 @@ impl LiveTracker {
         Self {
             steady: MotionDetector::new(params.steady.clone()),
             motion: SceneMotion::default(),
+            spell: params.steady.spell(),
             pace: PaceMeter::default(),
             average: DepthAverage::over(params.average),
             consensus_params: params.consensus.clone(),
@@ -157,8 +160,9 @@ impl LiveTracker {
             self.average.clear();
             self.consensus.clear();
         }
-        self.average.add(&scene);
-        if self.motion.state.is_steady() {
+        self.average.add(&scene, at);
+        if let MotionState::Steady { since, .. } = self.motion.state {
+            self.average.forget_before(since);
             self.average.mean().unwrap_or(scene)
         } else {
             scene
@@ -184,7 +188,7 @@ impl LiveTracker {
         let standing = match self.motion.state {
             MotionState::Watching | MotionState::Moving => LiveVerdict::Open,
             MotionState::Steady { since, .. } => {
-                if let Some(agreed) = consensus.agreed(since, accept) {
+                if let Some(agreed) = consensus.agreed(since, since + self.spell, accept) {
                     LiveVerdict::Counted(Box::new(unless_out_of_line(agreed, inspection)))
                 } else {
                     let (num_frames, needed) = consensus.gathered(since);

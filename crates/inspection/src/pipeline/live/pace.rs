@@ -56,13 +56,12 @@ impl PaceMeter {
             // The source was opened again, or a clock was set back.
             *self = Self::default();
         }
-        let before = self.inspected.back().map_or(at, |(then, _)| *then);
         self.inspected.push_back((at, number));
         while self.inspected.len() > 2 && self.inspected[1].0 + WINDOW <= at {
             self.inspected.pop_front();
         }
         self.waits_since = if waits && self.slow().is_some() {
-            Some(self.waits_since.unwrap_or(before))
+            Some(self.waits_since.unwrap_or(at))
         } else {
             None
         };
@@ -110,7 +109,7 @@ mod tests {
                 num_inspected: 2,
                 num_frames: 30,
             };
-            let is_told = (3.5..6.2).contains(&seconds);
+            let is_told = (4.0..6.2).contains(&seconds);
             assert_eq!(pace, is_told.then_some(expected), "after {seconds} s");
         }
         // Half of the frames are enough, and nobody waits.
@@ -125,8 +124,17 @@ mod tests {
             num_inspected: 1,
             num_frames: 90,
         };
-        assert_eq!(of_slow[0].1, None);
-        assert!(of_slow[1..].iter().all(|(_, pace)| *pace == Some(expected)));
+        assert!(of_slow[..2].iter().all(|(_, pace)| pace.is_none()));
+        assert!(of_slow[2..].iter().all(|(_, pace)| *pace == Some(expected)));
+    }
+
+    #[test]
+    fn one_stall_of_three_seconds_says_nothing() {
+        let mut meter = PaceMeter::default();
+        for number in (0..=60).chain(150..300) {
+            meter.add(Duration::from_secs(number) / 30, number, true);
+            assert_eq!(meter.holds_up(), None, "at frame {number}");
+        }
     }
 
     #[test]

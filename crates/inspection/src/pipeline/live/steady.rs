@@ -41,6 +41,14 @@ impl Default for SteadyParams {
     }
 }
 
+impl SteadyParams {
+    /// Least duration of a spell. Those that agree are compared by their means, so within the first, a part may still come to
+    /// rest.
+    pub(super) fn spell(&self) -> Duration {
+        self.settle / NUM_SPELLS as u32
+    }
+}
+
 /// Whether the scene moves, judging by the last frames.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum MotionState {
@@ -194,6 +202,12 @@ impl MotionDetector {
         self.stillness
     }
 
+    /// Forgets every frame: those that follow are of another run.
+    pub fn restart(&mut self) {
+        self.grid = None;
+        self.restart_consensus(MotionState::Watching, self.last_at);
+    }
+
     fn is_empty(&self) -> bool {
         self.spells.is_empty() && self.filling.num_frames == 0
     }
@@ -236,7 +250,7 @@ impl MotionDetector {
 
     fn is_full(&self, at: Duration) -> bool {
         let lasting = at.saturating_sub(self.filling.from);
-        let is_long = lasting >= self.params.settle / NUM_SPELLS as u32;
+        let is_long = lasting >= self.params.spell();
         is_long && self.filling.num_frames >= MIN_SPELL_FRAMES
     }
 

@@ -146,6 +146,34 @@ fn an_averaged_depth_is_nearer_to_the_truth_and_has_nothing_between_surfaces() {
     );
 }
 
+#[test]
+fn no_frame_from_before_the_rest_is_averaged() {
+    let part = HangingPart::new(PartKind::FrontDoor, 4);
+    let mut watch = LiveTracker::new(&LiveParams {
+        average: 4,
+        ..LiveParams::default()
+    });
+    // One run: it moved at the first frame, and has hung still since the second.
+    let of = |state| Some(SceneMotion { state, run: 1 });
+    let since = FRAME;
+    let still = |number: u32| {
+        of(MotionState::Steady {
+            since,
+            lasting: FRAME * number - since,
+        })
+    };
+    watch.look(
+        scene(&part, 0, 0.1),
+        Duration::ZERO,
+        of(MotionState::Moving),
+    );
+    for number in 1..=2 {
+        let looked = scene(&part, u64::from(number), 0.0);
+        watch.look(looked, FRAME * number, still(number));
+        assert_eq!(watch.num_averaged(), number as usize);
+    }
+}
+
 /// Prints the effect of averaging, for the documentation.
 #[test]
 #[ignore = "a table"]
@@ -173,7 +201,9 @@ fn depth_errors(part: &HangingPart, truth: &DepthFrame, num_frames: usize) -> De
     /// A reading further off than this is not on its surface, metres at 1 m.
     const OFF: f64 = 0.012;
     let mut average = DepthAverage::over(num_frames);
-    (0..num_frames as u64).for_each(|number| average.add(&scene(part, number, 0.0)));
+    for number in 0..num_frames as u64 {
+        average.add(&scene(part, number, 0.0), FRAME * number as u32);
+    }
     let mean = average.mean().expect("frames");
     let (mut sum_sq, mut num_on, mut num_off) = (0.0, 0.0, 0.0_f64);
     for (p, units) in mean.cloud.points.iter().zip(&truth.depth) {

@@ -384,8 +384,7 @@ impl<'a> LiveSession<'a> {
         let fitted = loaded.fitting(recipe, &watching);
         let fitted = fitted.ok_or(TaskError::Cancelled)?;
         let (arrived, at, number) = (captured.arrived, seconds(&captured), captured.number);
-        let motion = self.motion.as_ref();
-        let watched = motion.map(|motion| motion.motion_of(&captured));
+        let taken_at = captured.taken_at;
         let origin = Origin::of_capture(&captured, &self.request.spec, num_dropped);
         let SceneOrigin {
             mut scene,
@@ -395,6 +394,9 @@ impl<'a> LiveSession<'a> {
         if let Some(cell) = &self.request.empty_cell {
             Arc::make_mut(&mut scene).empty_cell = Some(Arc::clone(cell));
         }
+        let is_ending = || self.context.is_cancelled();
+        let motion = self.motion.as_ref();
+        let watched = motion.map(|motion| motion.motion_of(taken_at, arrived, is_ending));
         if let Some(watch) = &mut self.watch {
             scene = watch.look(scene, at, watched);
         }

@@ -41,7 +41,7 @@ fn consensus_every(ms: u64, frames: impl IntoIterator<Item = (Verdict, f64)>) ->
 }
 
 fn agreed(frames: impl IntoIterator<Item = (Verdict, f64)>) -> Option<ConsensusVerdict> {
-    consensus(frames).agreed(Duration::ZERO, &AcceptParams::default())
+    consensus(frames).agreed(Duration::ZERO, Duration::ZERO, &AcceptParams::default())
 }
 
 #[test]
@@ -73,7 +73,7 @@ fn too_few_frames_say_nothing_and_those_from_before_do_not_count() {
     assert_eq!(agreed(frames()), None);
     let seven = consensus((0..7).map(|_| (part("door", 0.99, None), 0.0)));
     let since = Duration::from_millis(33 * 3);
-    assert_eq!(seven.agreed(since, &AcceptParams::default()), None);
+    assert_eq!(seven.agreed(since, since, &AcceptParams::default()), None);
     assert_eq!(seven.gathered(since), (4, 5));
 }
 
@@ -91,7 +91,7 @@ fn few_frames_are_enough_if_they_are_far_apart_and_all_say_the_same() {
     };
     let agreed = |ms, frames: Vec<(Verdict, f64)>| {
         let all = consensus_every(ms, frames);
-        all.agreed(Duration::ZERO, &AcceptParams::default())
+        all.agreed(Duration::ZERO, Duration::ZERO, &AcceptParams::default())
     };
     let accepted = agreed(500, frames(&[Some(0.99); 3], 0.0)).expect("1 s apart");
     assert!(accepted.verdict.is_accepted() && accepted.num_frames == 3);
@@ -104,6 +104,38 @@ fn few_frames_are_enough_if_they_are_far_apart_and_all_say_the_same() {
     let split = [Some(0.99), None, Some(0.99)];
     assert_eq!(agreed(500, frames(&split, 0.0)), None);
     assert_eq!(agreed(500, frames(&[Some(0.99); 3], 0.02)), None);
+    // One that accepts the part, or refuses it for another reason, and one for which it fits another part almost as well.
+    let alike = Rejection::SmallMargin {
+        part: "door".into(),
+        other: "door_copy".into(),
+        margin: 0.02,
+        threshold: 0.05,
+    };
+    for rejected in [None, Some(unlike("door"))] {
+        let mut two = frames(&[Some(0.99); 2], 0.0);
+        two[0].0 = part("door", 0.97, rejected);
+        two[1].0 = part("door", 0.97, Some(alike.clone()));
+        assert_eq!(agreed(1000, two), None);
+    }
+}
+
+#[test]
+fn of_few_frames_none_counts_that_may_show_the_part_coming_to_rest() {
+    // At the first, it is 5 mm from where it comes to rest.
+    let of = |ms, num: usize| {
+        let places = [0.005, 0.0, 0.0, 0.0, 0.0];
+        let frames = places.iter().take(num);
+        let all = consensus_every(ms, frames.map(|x| (part("door", 0.99, None), *x)));
+        let rested = Duration::from_millis(300);
+        all.agreed(Duration::ZERO, rested, &AcceptParams::default())
+    };
+    assert_eq!(of(1000, 2), None);
+    let found = of(1000, 3).expect("two at rest");
+    assert_eq!((found.num_frames, found.num_agreeing), (2, 2));
+    let pose = found.pose.expect("a pose");
+    assert!(pose.camera_from_part.translation.x.abs() < 1e-9);
+    // Among many, it does little harm.
+    assert_eq!(of(100, 5).expect("enough frames").num_frames, 5);
 }
 
 #[test]
@@ -167,7 +199,7 @@ fn poses_of_two_references_are_not_one_pose_though_they_lie_together() {
             frame.reference = Some("door_b".into());
         }
         all.frames[9].reference = Some(last.into());
-        all.agreed(Duration::ZERO, &AcceptParams::default())
+        all.agreed(Duration::ZERO, Duration::ZERO, &AcceptParams::default())
             .expect("enough frames")
     };
     assert!(of_last(2, "door").verdict.is_accepted());
@@ -214,7 +246,7 @@ fn no_pose_where_none_was_found_rejects_as_the_frames_do() {
         .iter_mut()
         .for_each(|frame| frame.camera_from_part = None);
     let found = all
-        .agreed(Duration::ZERO, &AcceptParams::default())
+        .agreed(Duration::ZERO, Duration::ZERO, &AcceptParams::default())
         .expect("enough");
     assert_eq!(
         (found.verdict.rejected(), found.pose),
