@@ -159,7 +159,7 @@ fn no_frame_from_before_the_rest_is_averaged() {
     let still = |number: u32| {
         of(MotionState::Steady {
             since,
-            lasting: FRAME * number - since,
+            lasting: FRAME * (number - 1),
         })
     };
     watch.look(
