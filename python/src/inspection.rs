@@ -277,12 +277,14 @@ impl Inspection {
     }
 
     fn __repr__(&self) -> String {
-        let verdict = match (self.accepted(), self.part()) {
-            (true, Some(part)) => format!("{part}, accepted"),
-            (_, Some(part)) => format!("{part}, not accepted"),
-            (_, None) => self.status().replace('_', " "),
-        };
-        format!("<Inspection {:?}: {verdict}>", self.subject.scene)
+        let verdict = &self.found.verdict;
+        let part = verdict.identification();
+        let part = part.in_english(verdict.guess().unwrap_or_default());
+        let not = if self.accepted() { "" } else { "not " };
+        format!(
+            "<Inspection {:?}: {part}, {not}accepted>",
+            self.subject.scene
+        )
     }
 }
 

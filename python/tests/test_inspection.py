@@ -99,11 +99,12 @@ def test_what_is_not_enrolled_is_refused_with_reason_and_advice(library: partsig
     assert (found.accepted, found.status, found.part) == (False, "unknown", None)
     assert found.reason_kind == "mirrored"
     assert found.reason and "mirror image" in found.reason
+    assert "mirror image of fender, not accepted" in repr(found)
     assert found.advice
 
 
 def test_an_empty_scene_is_no_part(library: partsight.Library) -> None:
     found = partsight.inspect(partsight.Scene.from_points(np.zeros((0, 3))), library)
     assert (found.accepted, found.status, found.part, found.pose) == (False, "no_part", None, None)
-    assert found.reason_kind == "too_few_points"
+    assert found.reason_kind == "too_few_points" and "none, not accepted" in repr(found)
     assert found.segments.shape == (0,) and found.cloud.shape == (0, 3)

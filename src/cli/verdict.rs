@@ -84,17 +84,6 @@ pub(super) fn accepted_or_not(verdict: &Verdict) -> &'static str {
     }
 }
 
-/// Says what hangs there, with the name of the best match.
-pub(super) fn what_hangs(found: Identification, part: &str) -> String {
-    let name = found.name(part, Language::English);
-    name.unwrap_or_else(|| match found {
-        Identification::NotRecognised => format!("not recognised, nearest {part}"),
-        Identification::Unknown { is_like: true } => format!("unknown, nearest {part}"),
-        Identification::NoPart => "none".to_owned(),
-        _ => "unknown".to_owned(),
-    })
-}
-
 /// Says what hangs there, in a column beside the verdict.
 pub(super) fn in_column(found: Identification, part: &str) -> String {
     let name = found.name(part, Language::English);
@@ -117,7 +106,7 @@ pub(super) fn show_card(
     line("scene", visible(scene).into_owned());
     let verdict = &inspection.verdict;
     let found = verdict.identification();
-    let part = what_hangs(found, verdict.guess().unwrap_or_default());
+    let part = found.in_english(verdict.guess().unwrap_or_default());
     line("part", format!("{part}: {}", accepted_or_not(verdict)));
     if let Some([score, margin]) = verdict.score() {
         let next = inspection.ranking.runner_up().map(|next| &next.part);
@@ -249,7 +238,7 @@ mod tests {
             (unknown(false), "unknown", "unknown"),
             (Identification::NoPart, "none", "-"),
         ] {
-            assert_eq!(what_hangs(found, "fender"), words);
+            assert_eq!(found.in_english("fender"), words);
             assert_eq!(in_column(found, "fender"), column);
         }
     }

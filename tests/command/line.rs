@@ -15,12 +15,12 @@ fn number(text: &str, key: &str) -> f64 {
 /// Simulates the frames of a passing part in a folder `passing`, and returns the part's name and the frames.
 fn passing(shop: &Workplace) -> (String, Vec<String>) {
     let made = shop.accepted(&["simulate", "--line", "passing"]);
-    let told = made
+    let next = made
         .out
         .split("partsight ")
         .nth(1)
         .expect("what to do next");
-    let part = told.split_whitespace().nth(2).expect("the part").to_owned();
+    let part = next.split_whitespace().nth(2).expect("the part").to_owned();
     let frames = (1..=12).map(|k| format!("passing/frame-{k:02}.png"));
     (part, frames.collect())
 }

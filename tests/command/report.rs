@@ -289,11 +289,11 @@ fn a_folder_that_cannot_be_written_is_said_in_words() {
         "json,csv,pdf",
     ]);
     assert_eq!(ran.code, 2, "{}", ran.out);
-    for told in [
+    for part_of_error in [
         "its columns are not those of a pose report",
         "grille.pose.pdf",
     ] {
-        assert!(ran.err.contains(told), "{}", ran.err);
+        assert!(ran.err.contains(part_of_error), "{}", ran.err);
     }
     assert_eq!(
         fs::read(place.path("out/poses.matrix.csv")).expect("kept"),

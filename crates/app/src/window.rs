@@ -269,48 +269,11 @@ impl Window {
             }
             Action::CopyText(text) => ctx.copy_text(text),
             // The user is asked first.
-            Action::Close
-            // The state has carried them out.
-            | Action::Capture
-            | Action::UseCell(_)
-            | Action::SelectPart(_)
-            | Action::TakeEmptyCell
-            | Action::ForgetEmptyCell
-            | Action::Chosen(..)
-            | Action::Open(_)
-            | Action::UseFoundLibrary
-            | Action::CancelInspection
-            | Action::GoTo(_)
-            | Action::WrongPart
-            | Action::CloseTop
-            | Action::SwitchUnits
-            | Action::SwitchTheme
-            | Action::Speak(_)
-            | Action::ToggleHelp
-            | Action::Dismiss(_)
-            | Action::DismissAll
-            | Action::Reread(_)
-            | Action::Notify(_)
-            | Action::CloseAnyway
-            | Action::StayOpen
-            | Action::UseConvention(_)
-            | Action::Expect(_)
-            | Action::Live(_)
-            | Action::Rack(_)
-            | Action::Role(_)
-            | Action::Retract(_)
-            | Action::RemoveNotices(_)
-            | Action::WithdrawUndo(_)
-            | Action::UseSource(_)
-            | Action::UseRecipe(_)
-            | Action::UseCalibration(..)
-            | Action::UseAnswering(_)
-            | Action::UseProgramSetup(_)
-            | Action::UseServoSettings(_)
-            | Action::LibraryChanged { .. }
-            | Action::Inspect { .. }
-            | Action::InspectShown { .. }
-            | Action::ShowPast(_) => {}
+            Action::Close => {}
+            other => debug_assert!(
+                false,
+                "the shell returns what it does not carry out: {other:?}"
+            ),
         }
     }
 

@@ -9,7 +9,6 @@ use super::{ShowArgs, again, here};
 use crate::cli::{
     Outcome,
     console::{Advised as _, Console, Table, in_columns, marked_simulated},
-    verdict::what_hangs,
 };
 use inspection::{
     library::Truth,
@@ -288,7 +287,7 @@ fn record_table(from: ReadFrom<'_>, record: &Record) -> Table {
     }
     row("verdict", summary.verdict.to_string().to_lowercase());
     if let Some(part) = &detail.nearest {
-        row("part", what_hangs(summary.identification(), part));
+        row("part", summary.identification().in_english(part));
     }
     row("place", detail.place().unwrap_or_default());
     row("rack", summary.rack.clone().unwrap_or_default());

@@ -24,3 +24,4 @@ mod set_up;
 mod several_parts;
 mod shots;
 mod view;
+mod wrong_part;

@@ -80,6 +80,18 @@ impl Identification {
         Some(first.chain(letters).collect())
     }
 
+    /// States it in English, for terminals and programs: its name or, if it has none, that it is not recognised, unknown or
+    /// nothing, with the nearest part.
+    pub fn in_english(self, part: &str) -> String {
+        let name = self.name(part, Language::English);
+        name.unwrap_or_else(|| match self {
+            Self::NotRecognised => format!("not recognised, nearest {part}"),
+            Self::Unknown { is_like: true } => format!("unknown, nearest {part}"),
+            Self::NoPart => "none".to_owned(),
+            _ => "unknown".to_owned(),
+        })
+    }
+
     /// True if its type is certain: it can be compared with the part.
     pub fn is_of_type(self) -> bool {
         matches!(self, Self::Part | Self::AnotherMake | Self::AnotherModel)

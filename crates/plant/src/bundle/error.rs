@@ -92,7 +92,7 @@ pub enum BundleError {
     },
     /// The newest version in the store is signed with another key than the publisher's.
     #[error("{name}: signed with the key {found}, but your key is {own}")]
-    #[advice = "Publish with that key, because cells that trust it take no other, or publish to another folder or prefix; if nobody knows \
+    #[advice = "Publish with that key, because cells that trust it accept no other, or publish to another folder or prefix; if nobody knows \
                that key, remove the version from the store"]
     OtherPublisher {
         /// Its name in the store.

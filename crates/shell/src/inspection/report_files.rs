@@ -431,8 +431,8 @@ mod tests {
         std::fs::create_dir(at(&format!("{name}.contour.png"))).expect("made");
         let parts = [Arc::new(inspected)];
         let error = report(folder.path(), &parts, 0, "{}", &pose, None).expect_err("no table");
-        for told in ["poses.kuka.csv", "contour.png"] {
-            assert!(error.what.contains(told), "{error:?}");
+        for named in ["poses.kuka.csv", "contour.png"] {
+            assert!(error.what.contains(named), "{error:?}");
         }
         for written in ["report.json", "pose.json", "pose.pdf"] {
             assert!(at(&format!("{name}.{written}")).exists(), "{written}");

@@ -329,10 +329,13 @@ fn a_pose_at_a_count_is_as_uncertain_as_the_delay_of_the_camera() {
     assert_eq!(bound(&exact), bounds.shift);
     // In that time the line moves by 4 mm.
     assert!((bound(&vague).mm() - 5.0).abs() < 1e-9);
-    let told = |pose: LinePose, line| pose.on_line(1, line).bound_mm;
-    assert_eq!(told(counted, &exact).to_bits(), bounds.shift.mm().to_bits());
-    assert!((told(counted, &vague) - 5.0).abs() < 1e-9);
-    let uncounted = told(pose(None), &vague);
+    let answered_mm = |pose: LinePose, line| pose.on_line(1, line).bound_mm;
+    assert_eq!(
+        answered_mm(counted, &exact).to_bits(),
+        bounds.shift.mm().to_bits()
+    );
+    assert!((answered_mm(counted, &vague) - 5.0).abs() < 1e-9);
+    let uncounted = answered_mm(pose(None), &vague);
     assert_eq!(uncounted.to_bits(), bounds.shift.mm().to_bits());
 }
 

@@ -177,7 +177,7 @@ impl WrongPartPage {
         let is_accepted = self.accepted.as_deref() == Some(name);
         let is_former = self.former.as_ref().and_then(Truth::part) == Some(name);
         let note = match (is_accepted, is_former) {
-            (_, true) => text!("operator-told-as-this"),
+            (_, true) => text!("operator-labelled-as-this"),
             (true, false) => text!("operator-recognised-as-this"),
             (false, false) => String::new(),
         };

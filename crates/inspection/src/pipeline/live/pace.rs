@@ -35,7 +35,7 @@ impl Pace {
 
 /// Time over which frames are counted, unless two inspected ones are further apart.
 const WINDOW: Duration = Duration::from_secs(1);
-/// Time for which a verdict must have waited for a slow computer before anybody is told.
+/// Time that a verdict must have waited for a slow computer before the user is warned.
 const PATIENCE: Duration = Duration::from_secs(2);
 
 /// Counts the frames of one camera.
@@ -109,10 +109,10 @@ mod tests {
                 num_inspected: 2,
                 num_frames: 30,
             };
-            let is_told = (4.0..6.2).contains(&seconds);
-            assert_eq!(pace, is_told.then_some(expected), "after {seconds} s");
+            let is_warned = (4.0..6.2).contains(&seconds);
+            assert_eq!(pace, is_warned.then_some(expected), "after {seconds} s");
         }
-        // Half of the frames are enough, and nobody waits.
+        // Half of the frames are enough: no verdict waits.
         assert!(said(2, |_| true).iter().all(|(_, pace)| pace.is_none()));
         assert!(said(15, |_| false).iter().all(|(_, pace)| pace.is_none()));
     }

@@ -155,19 +155,21 @@ fn a_frame_that_cannot_be_written_costs_no_row_and_is_told_once_until_one_can() 
     fs::write(&frames, "no folder").expect("written");
     add(2);
     add(3);
-    let told = || {
-        let mut told = Vec::new();
+    let news = || {
+        let mut of_frames = Vec::new();
         for news in keeper.take_news() {
             match news {
-                HistoryEvent::FramesNotKept { what, advice } => told.push(Some((what, advice))),
-                HistoryEvent::FramesKept => told.push(None),
+                HistoryEvent::FramesNotKept { what, advice } => {
+                    of_frames.push(Some((what, advice)))
+                }
+                HistoryEvent::FramesKept => of_frames.push(None),
                 HistoryEvent::Added { .. } => {}
                 other => panic!("{other:?}"),
             }
         }
-        told
+        of_frames
     };
-    let first = told();
+    let first = news();
     let [Some((what, advice))] = first.as_slice() else {
         panic!("{first:?}");
     };
@@ -190,7 +192,7 @@ fn a_frame_that_cannot_be_written_costs_no_row_and_is_told_once_until_one_can() 
     fs::remove_dir_all(&frames).expect("removed");
     fs::write(&frames, "no folder").expect("written");
     add(6);
-    let again = told();
+    let again = news();
     assert!(matches!(again[..], [None, Some(_)]), "{again:?}");
     assert_eq!(numbers(&keeper), [6, 5, 4, 3, 2, 1]);
     assert_eq!((keeper.num_waiting(), keeper.next_try()), (0, None));
