@@ -12,7 +12,6 @@ use inspection::{
 };
 use stages::pose::{Stopped, Uncertainty};
 use station::Inspected;
-use texts::Language;
 
 /// Returns the part's position, the middle of its reference's extent (x, y, z in mm), and its rotation (rx, ry, rz in
 /// degrees).
@@ -84,14 +83,16 @@ pub(super) fn accepted_or_not(verdict: &Verdict) -> &'static str {
     }
 }
 
-/// Says what hangs there, in a column beside the verdict.
+/// Says what hangs there in a narrow column beside the verdict.
 pub(super) fn in_column(found: Identification, part: &str) -> String {
-    let name = found.name(part, Language::English);
-    name.unwrap_or_else(|| match found {
+    match found {
+        Identification::Part => part.to_owned(),
+        Identification::AnotherMake | Identification::AnotherModel => format!("like {part}"),
+        Identification::MirrorImage | Identification::OtherHalf => format!("mirrored {part}"),
         Identification::NoPart => "-".to_owned(),
         found if found.names_nearest() => format!("nearest {part}"),
         _ => "unknown".to_owned(),
-    })
+    }
 }
 
 /// Shows everything about one inspection, one line per item.
@@ -222,12 +223,12 @@ mod tests {
             (
                 Identification::AnotherMake,
                 "fender, another make",
-                "fender, another make",
+                "like fender",
             ),
             (
                 Identification::OtherHalf,
                 "mirror image of the enrolled piece of fender",
-                "mirror image of the enrolled piece of fender",
+                "mirrored fender",
             ),
             (
                 Identification::NotRecognised,

@@ -275,7 +275,7 @@ fn the_list_names_the_part_that_a_mirror_image_is_of() {
     ]);
     assert_eq!(place.run(&["inspect", "right.pcd"]).code, 1);
     let listed = place.accepted(&["history", "list"]);
-    let named = "mirror image of Front door, left";
+    let named = "mirrored Front door, left";
     assert!(listed.out.contains(named), "{}", listed.out);
     let row = place
         .accepted(&["history", "list", "--json"])

@@ -34,8 +34,8 @@ pub enum BadRequest {
         /// The text found, in printable characters.
         found: String,
     },
-    /// The text after the word of a request is not a number.
-    #[error("not a number: {found:?}")]
+    /// The text after the word of a request is no number that is allowed there.
+    #[error("not understood: {found:?}")]
     #[advice = "Send TRIGGER alone, or with PART, PLACE=PART, ENC=COUNT, ENC=COUNT@MILLISECONDS (0 to 10000, since it was read) or ORDER=\"A 17\"; PATH or PART alone, or with numbers from 1"]
     NoNumber {
         /// The text found, in printable characters.
