@@ -326,12 +326,12 @@ fn inspect_source(
 /// Warns once verdicts wait because the computer inspects too few frames; `is_known` says whether that was so before. Returns
 /// whether it is.
 fn warn_if_slow(station: &Station<KeptInspection>, is_known: bool, console: &Console) -> bool {
-    let pace = station.held_up_by();
-    if let Some(pace) = pace.filter(|_| !is_known) {
-        let why = pace.refusal(String::new());
+    let rate = station.held_up_by();
+    if let Some(rate) = rate.filter(|_| !is_known) {
+        let why = rate.refusal(String::new());
         console.warn(&why, &why);
     }
-    pace.is_some()
+    rate.is_some()
 }
 
 /// The scene of a capture from a source.
