@@ -198,10 +198,11 @@ impl Library {
             .detach(|| enrol_captured(cloud, &about, &params))
             .map_err(advised)?;
         let params = self.recipe.reference_params();
+        let former = self.lock().clone();
         let load = py
             .detach(|| {
                 folder.save(&enrolled.part)?;
-                let load = Arc::new(folder.load(&params)?);
+                let load = Arc::new(folder.load_after(&params, &former.library)?);
                 *self.lock() = load.clone();
                 Ok(load)
             })

@@ -10,7 +10,7 @@ use capture::{BackpressurePolicy, Feed, FeedItem, FeedState, FeedStatus, Pace, S
 use geometry::error::Advice as _;
 
 /// Interval between checks for Ctrl-C while nothing comes.
-const TURN: Duration = Duration::from_millis(100);
+const POLL_INTERVAL: Duration = Duration::from_millis(100);
 
 /// Parses a source for clap.
 pub(super) fn parse_source(text: &str) -> Result<SourceSpec, String> {
@@ -49,7 +49,7 @@ pub(super) fn follow_started(
     while console.is_writable() && !interrupt.came() {
         // Read before waiting, so that items queued before the end are still taken.
         let status = feed.status();
-        if let Some(item) = feed.wait(TURN) {
+        if let Some(item) = feed.wait(POLL_INTERVAL) {
             if lost.take().is_some() {
                 console.note(&format_args!("{} is back", spec.title()));
             }

@@ -249,9 +249,9 @@ fn inspect_source(
     let mut num_inspected = 0;
     let feed = start_source(source)?;
     let needs_motion = inspector.station.needs_motion();
-    let watch = needs_motion.then(|| MotionWatch::of_source(source, &feed));
-    let watch = watch.transpose().advised()?.flatten();
-    let watch = watch.as_ref();
+    let motion_watch = needs_motion.then(|| MotionWatch::of_source(source, &feed));
+    let motion_watch = motion_watch.transpose().advised()?.flatten();
+    let motion_watch = motion_watch.as_ref();
     let mut is_slow = false;
     let followed = follow_started(source, &feed, console, |item, status, console| {
         let is_enough = frames.is_some_and(|frames| num_inspected >= frames);
@@ -267,7 +267,7 @@ fn inspect_source(
             None => return Ok(ControlFlow::Continue(())),
             Some(FeedItem::Captured(captured)) if is_enough => {
                 let scenes = &mut inspector.scenes;
-                let scene = to_inspect(captured, watch, source, status, scenes, console);
+                let scene = to_inspect(captured, motion_watch, source, status, scenes, console);
                 inspector.check(scene, console)?
             }
             Some(FeedItem::Skipped(_)) if is_enough => Outcome::Accepted,
@@ -283,7 +283,7 @@ fn inspect_source(
                 let path = Path::new(&captured.name).to_owned();
                 inspector.frame(&path, console, |one, console| {
                     let scenes = &mut one.scenes;
-                    let scene = to_inspect(captured, watch, source, status, scenes, console);
+                    let scene = to_inspect(captured, motion_watch, source, status, scenes, console);
                     one.next(scene, console)
                 })?
             }
@@ -326,18 +326,18 @@ fn inspect_source(
 /// Warns once verdicts wait because the computer inspects too few frames; `is_known` says whether that was so before. Returns
 /// whether it is.
 fn warn_if_slow(station: &Station<KeptInspection>, is_known: bool, console: &Console) -> bool {
-    let pace = station.held_up_by();
-    if let Some(pace) = pace.filter(|_| !is_known) {
-        let why = pace.refusal(String::new());
+    let rate = station.held_up_by();
+    if let Some(rate) = rate.filter(|_| !is_known) {
+        let why = rate.refusal(String::new());
         console.warn(&why, &why);
     }
-    pace.is_some()
+    rate.is_some()
 }
 
 /// The scene of a capture from a source.
 fn to_inspect(
     captured: Captured,
-    watch: Option<&MotionWatch>,
+    motion_watch: Option<&MotionWatch>,
     source: &SourceSpec,
     status: &FeedStatus,
     scenes: &mut CameraScenes,
@@ -350,6 +350,6 @@ fn to_inspect(
         captured_at: Some(NewFrame::of_source(source).captured_at(&captured)),
         scene: scene_of(captured, scenes, console),
         // Last, as it may wait.
-        watched: watch.map(|watch| watch.motion_of(taken_at, arrived, || false)),
+        watched: motion_watch.map(|motion| motion.motion_of(taken_at, arrived, || false)),
     }
 }

@@ -20,6 +20,7 @@ use super::{
     rack::RackFileChoice,
     recipe::RecipeChoice,
     trace::TraceChoice,
+    verdict::accepted_or_not,
 };
 use geometry::error::Advice as _;
 use inspection::{
@@ -266,16 +267,13 @@ impl Reporter<'_> {
         if files.is_empty() {
             return errors;
         }
-        let verdict = &report.verdict;
-        let part = verdict.part.as_deref().unwrap_or(verdict.status);
-        let accepted = if verdict.accepted {
-            "accepted"
-        } else {
-            "NOT ACCEPTED"
-        };
-        let name = path.display();
+        let verdict = &inspection.verdict;
+        let found = verdict.identification();
         console.line(&format_args!(
-            "{name}: {part}, {accepted}: {}",
+            "{}: {}, {}: {}",
+            path.display(),
+            found.in_english(verdict.guess().unwrap_or_default()),
+            accepted_or_not(verdict),
             files.join(", ")
         ));
         errors

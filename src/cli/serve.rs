@@ -18,7 +18,7 @@ use self::session::ServeSession;
 use super::{
     LibraryChoice, Outcome,
     calibrate::{CalibrationChoice, LineChoice, no_calibration},
-    console::{Advised as _, Console, advised_error, with_advice},
+    console::{Advised as _, Console, with_advice},
     expect::ExpectChoice,
     input::{EmptyCellChoice, parse_name, within},
     interrupt::Interrupt,
@@ -65,8 +65,8 @@ Protocols, each on its own port; docs/guide/robots_that_ask.md describes them in
   eki                  XML for KUKA's option package Ethernet KRL; poses as kuka
   urscript             lists of numbers for Universal Robots; poses as universal-robots
 Requests:
-  TRIGGER              inspects a frame captured from then on; what should hang there is said by
-                       --expect, or by --orders and --order
+  TRIGGER              inspects a frame captured from then on; --expect, or --orders and --order,
+                       name the expected parts
   TRIGGER 3 5          these parts should hang there
   TRIGGER 1=3 2=5      the same at the first and the second place of the --rack
   TRIGGER ORDER=4711 SERIAL=TL-0042
@@ -158,7 +158,7 @@ const SERVOING: &str = "Servoing (SERVO)";
 const DEGREES_PER_MM: f64 = 0.1;
 
 /// Where to listen if no protocol is asked for.
-const USUAL: ListenAddress = ListenAddress {
+const DEFAULT_ADDRESS: ListenAddress = ListenAddress {
     protocol: Protocol::Ascii,
     address: SocketAddr::V4(SocketAddrV4::new(Ipv4Addr::LOCALHOST, 30100)),
 };
@@ -167,43 +167,36 @@ impl ServeArgs {
     /// The addresses of the line and frame protocols.
     fn addresses(&self) -> Vec<ListenAddress> {
         if self.listen.is_empty() && !self.http.is_wanted() {
-            vec![USUAL]
+            vec![DEFAULT_ADDRESS]
         } else {
             self.listen.clone()
         }
     }
 
     /// The camera, with what follows from its place.
-    fn eye(&self, library: &Library, console: &Console) -> anyhow::Result<Eye> {
-        match (&self.source, &self.simulated) {
-            (_, Some(part)) => {
-                let trial = self.trial.trial();
-                let carried = CarriedCamera::arrange(part.as_str(), library, trial).advised()?;
-                let (target, params) = (self.servo.target(console)?, self.servo.usual_params()?);
-                let source = carried.source();
-                Ok(Eye {
-                    robot: carried.frame(),
-                    servoing: Ok(self.moves(carried.setup(target, params), &source)?),
-                    source,
-                    carried: Some(carried),
-                })
-            }
-            (Some(source), None) => {
-                let Some(robot) = self.calibration.frame(console)? else {
-                    return Err(no_calibration("serve"));
-                };
-                Ok(Eye {
-                    robot,
-                    servoing: self.servoing(source, console)?,
-                    source: source.clone(),
-                    carried: None,
-                })
-            }
-            (None, None) => Err(advised_error(
-                "no camera is named",
-                "Give one with --source, or try a simulated one with --simulated",
-            )),
-        }
+    fn camera(&self, library: &Library, console: &Console) -> anyhow::Result<ServiceCamera> {
+        let Some(part) = &self.simulated else {
+            let robot = self.calibration.frame(console)?;
+            let (Some(source), Some(robot)) = (&self.source, robot) else {
+                return Err(no_calibration("serve"));
+            };
+            return Ok(ServiceCamera {
+                robot,
+                servoing: self.servoing(source, console)?,
+                source: source.clone(),
+                carried: None,
+            });
+        };
+        let trial = self.trial.trial();
+        let carried = CarriedCamera::arrange(part.as_str(), library, trial).advised()?;
+        let (target, params) = (self.servo.target(console)?, self.servo.default_params()?);
+        let source = carried.source();
+        Ok(ServiceCamera {
+            robot: carried.frame(),
+            servoing: Ok(self.moves(carried.setup(target, params), &source)?),
+            source,
+            carried: Some(carried),
+        })
     }
 
     /// What robots that servo are answered with, or why they are not.
@@ -229,7 +222,7 @@ impl ServeArgs {
 }
 
 /// The camera of a service, with what follows from its place.
-struct Eye {
+struct ServiceCamera {
     source: SourceSpec,
     robot: RobotFrame,
     servoing: Result<SingleMoves, SetupError>,
@@ -237,7 +230,7 @@ struct Eye {
     carried: Option<CarriedCamera>,
 }
 
-impl Eye {
+impl ServiceCamera {
     fn start(&self) -> anyhow::Result<Camera> {
         match &self.carried {
             Some(carried) => carried.start(),
@@ -289,8 +282,8 @@ pub(super) fn run(args: &ServeArgs, console: &mut Console) -> anyhow::Result<Out
     let trace = args.trace.of_parts(None)?;
     let database = args.recording.database(console)?;
     let (place, load) = (args.library).load_placed(&recipe.reference_params(), console)?;
-    let eye = args.eye(&load.library, console)?;
-    let recipe = (args.rack).before(recipe, &load.library, Some(&eye.robot))?;
+    let chosen = args.camera(&load.library, console)?;
+    let recipe = (args.rack).before(recipe, &load.library, Some(&chosen.robot))?;
     let orders = args.expect.orders()?;
     let recipe = if orders.is_some() && trace.order.is_empty() {
         // Each trigger has to name its order.
@@ -301,12 +294,12 @@ pub(super) fn run(args: &ServeArgs, console: &mut Console) -> anyhow::Result<Out
     let parts = args.numbers.parts(&place, &load, console)?;
     let empty_cell = args.empty_cell.open(console)?;
     let line = args.line.load()?;
-    let camera = Arc::new(eye.start()?);
+    let camera = Arc::new(chosen.start()?);
     let interrupt = Interrupt::listen()?;
     let (mut server, events) = start(args, &listeners, &camera)?;
     let recording = (args.recording).start(&load, &trace, database, console)?;
-    announce(&server, &listeners, &eye.source, &parts, &load, console);
-    if let Some(carried) = &eye.carried {
+    announce(&server, &listeners, &chosen.source, &parts, &load, console);
+    if let Some(carried) = &chosen.carried {
         args.trial.announce(console);
         announce_flange(carried, &listeners, console);
     }
@@ -332,16 +325,16 @@ pub(super) fn run(args: &ServeArgs, console: &mut Console) -> anyhow::Result<Out
         recipe,
         finder: PartFinder {
             parts,
-            robot: eye.robot,
+            robot: chosen.robot,
             kind: args.numbers.kind(),
         },
-        servoing: eye.servoing,
-        carried: eye.carried,
+        servoing: chosen.servoing,
+        carried: chosen.carried,
         orders,
         traced: trace.clone(),
         trace,
         scenes: CameraScenes::new(empty_cell),
-        source: eye.source,
+        source: chosen.source,
         line: line.map(LineFollower::new),
         frame_timeout: Duration::from_secs_f64(args.frame_timeout),
         format,

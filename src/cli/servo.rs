@@ -34,7 +34,7 @@ use texts::Message;
 #[command(after_help = "\
 Examples:
   partsight servo fender --simulated                                       a simulated robot, to see how it works
-  partsight servo fender --simulated --delay 150 --hand-eye 10,1           one that sees late
+  partsight servo fender --simulated --delay 150 --hand-eye 10,1           a late camera, a smaller error of calibration
   partsight servo fender --source kinect --robot egm=192.168.1.10:6510
   partsight servo fender --source kinect --robot ur=192.168.1.20 --speed 100
   partsight servo fender --source kinect --robot rsi=192.168.1.10:49152 --arm kr16.toml --nozzle \"kuka 0 0 200 0 0 0\"
@@ -55,7 +55,7 @@ pub(super) struct ServoArgs {
     #[arg(value_name = "PART", value_parser = parse_name)]
     part: PartName,
     /// The robot's controller
-    #[arg(long, value_name = "PROTOCOL=ADDRESS", value_parser = parse_robot, required_unless_present = "simulated", requires = "source")]
+    #[arg(long, value_name = "PROTOCOL=ADDRESS", value_parser = parse_robot, required_unless_present = "simulated", requires = "source", conflicts_with = "trial")]
     robot: Option<RobotAddress>,
     /// Move a simulated robot with a camera instead, in this protocol
     #[arg(long, value_name = "PROTOCOL", value_parser = parse_protocol, num_args = 0..=1, default_missing_value = "egm", conflicts_with_all = ["robot", "source", "target", "seen_as", "arm", "nozzle", "volume"])]

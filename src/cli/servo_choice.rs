@@ -75,26 +75,40 @@ const TARGETS: [Choice<NamedTarget>; 2] = [
 
 /// The simulated robot that is tried.
 #[derive(Debug, Args)]
+#[group(id = "trial", requires = "simulated", conflicts_with = "source")]
 pub(super) struct TrialChoice {
     /// Seed of the simulated start
-    #[arg(long, value_name = "N", default_value_t = SimulatedTrial::default().seed, requires = "simulated", conflicts_with = "source")]
+    #[arg(long, value_name = "N", default_value_t = SimulatedTrial::default().seed)]
     seed: u64,
     #[arg(
-        long, value_name = "MS", requires = "simulated", conflicts_with = "source",
+        long, value_name = "MS",
         help = format!("How much later than it was taken a simulated frame counts, at least, ms ({})", from_to(&SimulatedTrial::DELAYS_MS)),
         default_value_t = 1000.0 * SimulatedTrial::default().delay.as_secs_f64(),
         value_parser = |text: &str| within(text, &SimulatedTrial::DELAYS_MS),
     )]
     delay: f64,
-    /// By how much the calibration of the simulated camera is wrong at most: mm and degrees; default: 20,2
-    #[arg(long, value_name = "MM,DEG", value_parser = parse_hand_eye, requires = "simulated", conflicts_with = "source")]
+    #[arg(
+        long, value_name = "MM,DEG", value_parser = parse_hand_eye,
+        help = format!("By how much the calibration of the simulated camera is wrong at most: mm and degrees; default: {}", default_hand_eye()),
+    )]
     hand_eye: Option<HandEyeError>,
     #[arg(
-        long, value_name = "DEG", requires = "simulated", conflicts_with = "source",
-        help = format!("Play of each joint of the simulated arm, degrees ({}); default: 0.006", from_to(&SimulatedTrial::PLAYS_DEG)),
+        long, value_name = "DEG",
+        help = format!("Play of each joint of the simulated arm, degrees ({}); default: {}", from_to(&SimulatedTrial::PLAYS_DEG), rounded(SimulatedTrial::default().play.degrees())),
         value_parser = |text: &str| within(text, &SimulatedTrial::PLAYS_DEG),
     )]
     backlash: Option<f64>,
+}
+
+/// The default error of the calibration, as it is given.
+fn default_hand_eye() -> String {
+    let HandEyeError { shift, turn } = SimulatedTrial::default().hand_eye;
+    format!("{},{}", rounded(shift.mm()), rounded(turn.degrees()))
+}
+
+/// To three decimals: a default that is converted ends in many.
+fn rounded(number: f64) -> f64 {
+    (1000.0 * number).round() / 1000.0
 }
 
 fn parse_hand_eye(text: &str) -> Result<HandEyeError, String> {
@@ -104,7 +118,8 @@ fn parse_hand_eye(text: &str) -> Result<HandEyeError, String> {
         .and_then(|(shift, turn)| Some((within(shift, &shifts).ok()?, within(turn, &turns).ok()?)));
     let (shift, turn) = numbers.ok_or_else(|| {
         let (shifts, turns) = (from_to(&shifts), from_to(&turns));
-        format!("expected MM,DEG: {shifts} mm and {turns} degrees, such as 20,2")
+        let example = default_hand_eye();
+        format!("expected MM,DEG: {shifts} mm and {turns} degrees, such as {example}")
     })?;
     Ok(HandEyeError {
         shift: Metres::from_mm(shift),
@@ -114,12 +129,12 @@ fn parse_hand_eye(text: &str) -> Result<HandEyeError, String> {
 
 impl TrialChoice {
     pub(super) fn trial(&self) -> SimulatedTrial {
-        let usual = SimulatedTrial::default();
+        let default = SimulatedTrial::default();
         SimulatedTrial {
             seed: self.seed,
             delay: Duration::from_secs_f64(self.delay / 1000.0),
-            hand_eye: self.hand_eye.unwrap_or(usual.hand_eye),
-            play: self.backlash.map_or(usual.play, Radians::from_degrees),
+            hand_eye: self.hand_eye.unwrap_or(default.hand_eye),
+            play: self.backlash.map_or(default.play, Radians::from_degrees),
         }
     }
 
@@ -161,16 +176,16 @@ impl ServoChoice {
             flange_from_nozzle: self.nozzle.as_ref().map(|nozzle| nozzle.pose),
             placed: self.placed()?,
             volume: self.volume,
-            params: self.usual_params()?,
+            params: self.default_params()?,
         })
     }
 
-    /// The parameters with the usual speed.
-    pub(super) fn usual_params(&self) -> anyhow::Result<ServoParams> {
+    /// The parameters with the default speed.
+    pub(super) fn default_params(&self) -> anyhow::Result<ServoParams> {
         self.params(1000.0 * ServoParams::default().limits.speed)
     }
 
-    /// The parameters with these limits.
+    /// The parameters with this speed.
     pub(super) fn params(&self, speed_mm_s: f64) -> anyhow::Result<ServoParams> {
         let tolerance = Metres::from_mm(self.tolerance);
         ServoParams::limited(speed_mm_s, tolerance, Metres::from_mm(self.clearance)).advised()

@@ -202,6 +202,11 @@ fn a_part_that_is_not_accepted_is_code_one_and_an_empty_cell_is_reported() {
     assert_eq!(ran.code, 0, "{}", ran.err);
     let ran = place.run(&["report", "empty.pcd", "--out", "out"]);
     assert_eq!(ran.code, 1, "{}", ran.err);
+    assert!(
+        ran.out.starts_with("empty.pcd: none, NOT ACCEPTED: "),
+        "{}",
+        ran.out
+    );
     let report = place.json("out/empty.pose.json");
     assert_eq!(report["verdict"]["status"], "no_part");
     assert!(
@@ -214,6 +219,16 @@ fn a_part_that_is_not_accepted_is_code_one_and_an_empty_cell_is_reported() {
             .expect("a page")
             .starts_with(b"%PDF")
     );
+}
+
+#[test]
+fn a_mirror_image_is_not_named_as_the_part_itself() {
+    let place = Workplace::new();
+    capture(&place, "front_door", "right", "right.pcd");
+    let ran = place.run(&["report", "right.pcd", "--out", "out"]);
+    assert_eq!(ran.code, 1, "{}", ran.err);
+    let named = "right.pcd: mirror image of front_door, NOT ACCEPTED: ";
+    assert!(ran.out.starts_with(named), "{}", ran.out);
 }
 
 #[test]

@@ -132,6 +132,12 @@ fn what_cannot_be_servoed_is_refused_with_advice() {
             servo(&["--robot", "egm=0", "--delay", "50"]),
             "cannot be used with",
         ),
+        (
+            place
+                .coded(2, &["servo", "fender", "--robot=egm=0", "--delay=50"])
+                .err,
+            "cannot be used with",
+        ),
         (place.coded(2, &replayed).err, "Give a camera as --source"),
         (servo(&["--robot", "abb=6510"]), "egm=192.168.1.10:6510"),
         (calibrated("rsi=0"), "--arm and --nozzle"),

@@ -264,20 +264,20 @@ pub(super) fn lit_by_projector(disparity: &[f32], camera: &Intrinsics) -> Vec<bo
             } else {
                 here
             };
-            for cell in &mut nearest[index(here.min(next))..=index(here.max(next))] {
+            for cell in &mut nearest[truncated(here.min(next))..=truncated(here.max(next))] {
                 *cell = cell.max(disparity);
             }
         }
         for ((lit, &column), disparity) in lit_row.iter_mut().zip(&columns).zip(row) {
-            *lit = nearest[index(column)] <= disparity + EDGE_STEP_PIXELS;
+            *lit = nearest[truncated(column)] <= disparity + EDGE_STEP_PIXELS;
         }
     }
     lit
 }
 
 /// Truncates a column or row of a picture, at least 0; a cast to `usize` would take longer.
-fn index(place: f32) -> usize {
-    place as i32 as usize
+fn truncated(coordinate: f32) -> usize {
+    coordinate as i32 as usize
 }
 
 /// Returns 2 at a discontinuity of the disparity, 1 one pixel further away, 0 elsewhere.
@@ -316,7 +316,7 @@ pub(super) fn sample(disparity: &[f32], camera: &Intrinsics, u: f32, v: f32) -> 
     let (width, height) = (camera.width, camera.height);
     let u = u.clamp(0.0, (width - 1) as f32);
     let v = v.clamp(0.0, (height - 1) as f32);
-    let (column, row) = (index(u), index(v));
+    let (column, row) = (truncated(u), truncated(v));
     let (s, t) = (u - column as f32, v - row as f32);
     let right = usize::from(column + 1 < width);
     let below = if row + 1 < height { width } else { 0 };

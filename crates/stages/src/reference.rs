@@ -115,6 +115,8 @@ pub struct Reference {
     borders: OnceLock<Vec<ReferenceBorder>>,
     /// Built on first use: the default pose search starts from placements and does not need it.
     whole: OnceLock<Result<PreparedTarget, PoseError>>,
+    /// What its views were made with; `None` if [`Self::prepare`] did not make them.
+    prepared_with: Option<(Coverage, Arc<ReferenceParams>)>,
 }
 
 /// Number of points kept of a view's outline and openings: about one per 1.5 cm around a door.
@@ -160,9 +162,10 @@ impl Reference {
             });
         }
         let viewpoints = viewpoints(&cloud, coverage).ok_or(no_outline)?;
+        let params = Arc::new(params.clone());
         let source = ViewSource {
             cloud: Arc::clone(&cloud),
-            params: Arc::new(params.clone()),
+            params: Arc::clone(&params),
         };
         let views: Vec<ReferenceView> = viewpoints
             .iter()
@@ -171,7 +174,21 @@ impl Reference {
         if views.is_empty() {
             return Err(no_outline);
         }
-        Ok(Self::of_views(name, cloud, views))
+        Ok(Self {
+            prepared_with: Some((coverage, params)),
+            ..Self::of_views(name, cloud, views)
+        })
+    }
+
+    /// True if [`Self::prepare`] would make the same of this.
+    pub fn is_prepared_from(
+        &self,
+        cloud: &PointCloud,
+        coverage: Coverage,
+        params: &ReferenceParams,
+    ) -> bool {
+        let with = self.prepared_with.as_ref();
+        with.is_some_and(|(of, by)| *of == coverage && **by == *params) && *self.cloud == *cloud
     }
 
     fn of_views(name: &str, cloud: Arc<PointCloud>, views: Vec<ReferenceView>) -> Self {
@@ -190,6 +207,7 @@ impl Reference {
             cut: ViewCut::default(),
             borders: OnceLock::new(),
             whole: OnceLock::new(),
+            prepared_with: None,
         }
         .with_views(views)
     }
@@ -202,6 +220,7 @@ impl Reference {
             spectra: RaySpectra::of(views.iter().map(|view| &view.signature().rays[..])),
             summaries: OnceLock::new(),
             sides: OnceLock::new(),
+            prepared_with: None,
             views,
             ..self
         }

@@ -9,8 +9,8 @@ use nalgebra::Point3;
 use inspection::pipeline::{
     Inspection, Recipe, Verdict,
     live::{
-        FrameRole, HungFrame, LiveParams, LiveTracker, LiveVerdict, MotionState, Pace, SceneMotion,
-        SteadyParams, nothing_there, refuse_moving, refuse_unless_again,
+        FrameRole, HungFrame, InspectionRate, LiveParams, LiveTracker, LiveVerdict, MotionState,
+        SceneMotion, SteadyParams, nothing_there, refuse_moving, refuse_unless_again,
     },
 };
 use records::history::{HungId, HungSpots, NewEntry};
@@ -76,13 +76,13 @@ impl SeenPart {
 
     /// Of a part that hangs still, but of which too few frames were inspected, says that the computer is too slow: what single
     /// frames say is no verdict, good or bad.
-    fn refuse_at_pace(&mut self, pace: Pace) {
+    fn refuse_as_too_slow(&mut self, rate: InspectionRate) {
         let is_still = matches!(self.verdict, LiveVerdict::Gathering { .. });
         if !is_still || self.inspection.verdict.is_unknown() {
             return;
         }
         if let Verdict::Part { part, rejected, .. } = &mut self.inspection.verdict {
-            *rejected = Some(pace.refusal(part.clone()));
+            *rejected = Some(rate.refusal(part.clone()));
         }
     }
 }
@@ -133,9 +133,9 @@ impl<'a> SeenFrame<'a> {
         let is_moving = tracker.stillness() == MotionState::Moving;
         let waits = !is_moving && parts.iter().any(SeenPart::is_waiting);
         tracker.judged(self.number, waits);
-        if let Some(pace) = tracker.slow() {
+        if let Some(rate) = tracker.slow() {
             for part in &mut parts {
-                part.refuse_at_pace(pace);
+                part.refuse_as_too_slow(rate);
             }
         }
         (parts, absent)
@@ -178,8 +178,8 @@ impl<E> PartFollower<E> {
         self.tracker.look(scene, self.at, watched)
     }
 
-    /// The pace, if a verdict has waited two seconds or longer because fewer than half of the camera's frames are inspected.
-    pub fn held_up_by(&self) -> Option<Pace> {
+    /// The rate, if a verdict has waited two seconds or longer because fewer than half of the camera's frames are inspected.
+    pub fn held_up_by(&self) -> Option<InspectionRate> {
         self.tracker.held_up_by()
     }
 
@@ -551,7 +551,7 @@ mod tests {
 
     #[test]
     fn only_a_part_that_is_known_to_hang_still_is_refused_for_a_slow_computer() {
-        let pace = Pace {
+        let rate = InspectionRate {
             num_inspected: 1,
             num_frames: 50,
         };
@@ -566,7 +566,7 @@ mod tests {
                 is_approximate: false,
             };
             (seen.spot, seen.verdict) = (Some(0), verdict);
-            seen.refuse_at_pace(pace);
+            seen.refuse_as_too_slow(rate);
             let rejected = seen.inspection.verdict.rejected();
             matches!(rejected, Some(Rejection::TooSlow { .. }))
         };

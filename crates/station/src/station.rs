@@ -13,7 +13,7 @@ use inspection::{
     library::Library,
     pipeline::{
         Inspection, NamedRecipe, Unwatched,
-        live::{Pace, SceneMotion, refuse_moving},
+        live::{InspectionRate, SceneMotion, refuse_moving},
         run_all,
     },
 };
@@ -140,8 +140,8 @@ impl<E> Station<E> {
         matches!(self.following, Following::Hanging(_))
     }
 
-    /// The pace, if a verdict has waited two seconds or longer because fewer than half of the camera's frames are inspected.
-    pub fn held_up_by(&self) -> Option<Pace> {
+    /// The rate, if a verdict has waited two seconds or longer because fewer than half of the camera's frames are inspected.
+    pub fn held_up_by(&self) -> Option<InspectionRate> {
         match &self.following {
             Following::Hanging(follower) => follower.held_up_by(),
             Following::Independent | Following::Line(_) => None,

@@ -415,7 +415,7 @@ fn show_racks(racks: &[RackFigures], console: &mut Console) {
         "accepted twice",
         "accepted where nothing hangs",
         "not enrolled",
-        "told as unknown or mirrored",
+        "reported as unknown or mirrored",
         "not inspected",
         "refused of nothing or again",
         "median time",

@@ -1,6 +1,6 @@
 //! Loading a library: in parallel, each part on its own, so that a damaged one is reported and the others load.
 
-use std::{fs, path::PathBuf, time::SystemTime};
+use std::{collections::HashMap, fs, path::PathBuf, time::SystemTime};
 
 use super::{
     Library,
@@ -13,7 +13,7 @@ use super::{
     stored_part::{CloudCheckLevel, StoredPart, meta_of, read_entry},
 };
 use geometry::parallel::{map_each, num_cores};
-use stages::reference::ReferenceParams;
+use stages::reference::{Reference, ReferenceParams};
 
 /// Result of loading a library.
 #[derive(Debug, Default)]
@@ -46,7 +46,16 @@ const MAX_LOADS: usize = 5;
 impl LibraryFolder {
     /// Loads all parts. It is an error only if the folder cannot be listed; damaged parts are in `problems`.
     pub fn load(&self, params: &ReferenceParams) -> Result<LibraryLoad, LibraryError> {
-        self.load_unchanged(|entries| load_entries(entries, CloudCheckLevel::Quick, params))
+        self.load_after(params, &Library::default())
+    }
+
+    /// As [`Self::load`], and takes the parts that have not changed from the library that was loaded before.
+    pub fn load_after(
+        &self,
+        params: &ReferenceParams,
+        former: &Library,
+    ) -> Result<LibraryLoad, LibraryError> {
+        self.load_unchanged(|entries| load_entries(entries, CloudCheckLevel::Quick, params, former))
     }
 
     /// Lists all parts without reading their clouds.
@@ -56,7 +65,8 @@ impl LibraryFolder {
 
     /// As [`Self::load`], and checks every file of every part against its cloud.
     pub fn verify(&self, params: &ReferenceParams) -> Result<LibraryLoad, LibraryError> {
-        self.load_unchanged(|entries| load_entries(entries, CloudCheckLevel::Thorough, params))
+        let none = Library::default();
+        self.load_unchanged(|all| load_entries(all, CloudCheckLevel::Thorough, params, &none))
     }
 
     /// Loads one part.
@@ -69,6 +79,7 @@ impl LibraryFolder {
             &self.entry(name)?,
             CloudCheckLevel::Quick,
             params,
+            None,
         ))
     }
 
@@ -113,7 +124,8 @@ impl LibraryFolder {
 
 /// Loads the parts inside the program.
 pub(super) fn load_shipped(params: &ReferenceParams) -> LibraryLoad {
-    load_entries(&shipped_entries(), CloudCheckLevel::Quick, params)
+    let none = Library::default();
+    load_entries(&shipped_entries(), CloudCheckLevel::Quick, params, &none)
 }
 
 /// Lists the parts inside the program.
@@ -144,12 +156,23 @@ pub(super) fn read_shipped(
     params: &ReferenceParams,
 ) -> Option<Result<StoredPart, EntryProblem>> {
     let entry = shipped_entries().into_iter().find(|e| e.name == name)?;
-    Some(read_entry(&entry, CloudCheckLevel::Quick, params))
+    Some(read_entry(&entry, CloudCheckLevel::Quick, params, None))
 }
 
-fn load_entries(entries: &[Entry], look: CloudCheckLevel, params: &ReferenceParams) -> LibraryLoad {
+fn load_entries(
+    entries: &[Entry],
+    look: CloudCheckLevel,
+    params: &ReferenceParams,
+    former: &Library,
+) -> LibraryLoad {
+    let former = former.references.iter();
+    let former: HashMap<&str, &Reference> = former
+        .map(|reference| (reference.enrolled_as.as_str(), reference))
+        .collect();
     let read_one = |i: usize| {
-        let mut read = read_entry(&entries[i], look, params)?;
+        let entry = &entries[i];
+        let former = former.get(entry.name.as_str()).copied();
+        let mut read = read_entry(entry, look, params, former)?;
         read.reference = read.reference.for_library_of(entries.len());
         Ok(read)
     };
@@ -180,7 +203,8 @@ mod tests {
     }
 
     fn quick(entries: &[Entry]) -> LibraryLoad {
-        load_entries(entries, CloudCheckLevel::Quick, &ReferenceParams::default())
+        let (params, none) = (ReferenceParams::default(), Library::default());
+        load_entries(entries, CloudCheckLevel::Quick, &params, &none)
     }
 
     #[test]

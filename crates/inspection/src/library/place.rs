@@ -8,6 +8,7 @@ use std::{
 use image::RgbaImage;
 
 use super::{
+    Library,
     entry::{NEW_PREFIX, THUMBNAIL},
     error::LibraryError,
     load::{LibraryListing, LibraryLoad, list_shipped, load_shipped, read_shipped},
@@ -70,8 +71,19 @@ impl LibraryPlace {
 
     /// Loads all parts; see [`LibraryFolder::load`].
     pub fn load(&self, params: &ReferenceParams) -> Result<LibraryLoad, LibraryError> {
-        self.folder()
-            .map_or_else(|| Ok(load_shipped(params)), |folder| folder.load(params))
+        self.load_after(params, &Library::default())
+    }
+
+    /// As [`Self::load`], and takes the parts that have not changed from the library that was loaded before.
+    pub fn load_after(
+        &self,
+        params: &ReferenceParams,
+        former: &Library,
+    ) -> Result<LibraryLoad, LibraryError> {
+        self.folder().map_or_else(
+            || Ok(load_shipped(params)),
+            |folder| folder.load_after(params, former),
+        )
     }
 
     /// Lists all parts; see [`LibraryFolder::list`].

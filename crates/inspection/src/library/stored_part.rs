@@ -5,7 +5,6 @@ use std::{
     fs,
     io::{self, Read as _},
     path::Path,
-    sync::Mutex,
 };
 
 use super::{
@@ -18,10 +17,8 @@ use files::{
     FileContent, FileError, open_bytes, open_regular, parse_toml, read_bytes, read_picture,
     toml_problem,
 };
-use geometry::{
-    cloud::PointCloud, error::lock, nearest::KdTree, normals::estimate_normals, units::Metres,
-};
-use stages::reference::{Coverage, Reference, ReferenceError, ReferenceParams};
+use geometry::{cloud::PointCloud, nearest::KdTree, normals::estimate_normals, units::Metres};
+use stages::reference::{Reference, ReferenceParams};
 
 /// A stored part, read and prepared.
 #[derive(Debug)]
@@ -46,16 +43,26 @@ pub(super) enum CloudCheckLevel {
     Thorough,
 }
 
+/// Reads a stored part; `former` is its reference as last loaded, which is taken if it would be prepared the same.
 pub(super) fn read_entry(
     entry: &Entry,
     look: CloudCheckLevel,
     params: &ReferenceParams,
+    former: Option<&Reference>,
 ) -> Result<StoredPart, EntryProblem> {
     let read = || -> Result<StoredPart, EntryError> {
         let meta = read_meta(entry)?;
         let cloud = read_cloud(entry, &meta.cloud)?;
-        let mut reference =
-            prepared(meta.part_name().as_str(), cloud, meta.coverage, params)?.with_cut(meta.cut);
+        let part = meta.part_name().as_str();
+        // The borders, which are found on first use, depend on the cut.
+        let is_same = |former: &&Reference| {
+            former.cut == meta.cut && former.is_prepared_from(&cloud, meta.coverage, params)
+        };
+        let mut reference = match former.filter(is_same) {
+            Some(former) => former.clone(),
+            None => Reference::prepare(part, cloud, meta.coverage, params)?.with_cut(meta.cut),
+        };
+        part.clone_into(&mut reference.name);
         meta.name.as_str().clone_into(&mut reference.enrolled_as);
         let mut issues = issues(entry, &reference, look, params);
         if look == CloudCheckLevel::Thorough
@@ -84,43 +91,10 @@ pub(super) fn read_entry(
     })
 }
 
-/// The parts prepared last, most recently first: a library is read again after every change of it, and of a few parts the
-/// others are then ready.
-static KNOWN: Mutex<Vec<(Coverage, ReferenceParams, Reference)>> = Mutex::new(Vec::new());
-/// How many parts are kept; each takes some 0.4 MB.
-const MAX_KNOWN: usize = 16;
-
-/// Prepares a part, unless it was among the last.
-fn prepared(
-    name: &str,
-    cloud: PointCloud,
-    coverage: Coverage,
-    params: &ReferenceParams,
-) -> Result<Reference, ReferenceError> {
-    let mut all = lock(&KNOWN);
-    let is_this = |(of, by, reference): &(Coverage, ReferenceParams, Reference)| {
-        *of == coverage && by == params && *reference.cloud == cloud
-    };
-    if let Some(index) = all.iter().position(is_this) {
-        all[..=index].rotate_right(1);
-        let mut reference = all[0].2.clone();
-        drop(all);
-        name.clone_into(&mut reference.name);
-        name.clone_into(&mut reference.enrolled_as);
-        return Ok(reference);
-    }
-    drop(all);
-    let reference = Reference::prepare(name, cloud, coverage, params)?;
-    let mut all = lock(&KNOWN);
-    all.truncate(MAX_KNOWN - 1);
-    all.insert(0, (coverage, params.clone(), reference.clone()));
-    drop(all);
-    Ok(reference)
-}
-
 /// Returns why a stored part cannot be loaded; `None` if it can.
 pub(super) fn problem_of(entry: &Entry) -> Option<EntryProblem> {
-    read_entry(entry, CloudCheckLevel::Quick, &ReferenceParams::default()).err()
+    let params = ReferenceParams::default();
+    read_entry(entry, CloudCheckLevel::Quick, &params, None).err()
 }
 
 /// Reads the `part.toml` of a stored part.

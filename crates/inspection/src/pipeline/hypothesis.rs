@@ -61,7 +61,7 @@ pub(super) fn try_hypotheses(
     let evidence = inspection.ranking.entries.first().and_then(|e| e.evidence);
     let looks_whole = evidence.is_some_and(|evidence| evidence.cut < CUT_SHARE);
     let has_more = evidence.is_none_or(|evidence| evidence.off > MIN_OFF_OF_SEVERAL);
-    let mut best_piece = None;
+    let mut one_of_several = None;
     for hypothesis in HYPOTHESES {
         let is_plausible = match hypothesis {
             Hypothesis::OtherSurface | Hypothesis::MirrorImage => true,
@@ -79,13 +79,13 @@ pub(super) fn try_hypotheses(
         }
         // What is not one of several may be another thing as a whole.
         if let Some(whole) = whole {
-            best_piece = Some(mem::replace(inspection, whole));
+            one_of_several = Some(mem::replace(inspection, whole));
         }
     }
-    if let Some(piece) = best_piece
-        && piece.best_score() > inspection.best_score()
+    if let Some(one) = one_of_several
+        && one.best_score() > inspection.best_score()
     {
-        *inspection = piece;
+        *inspection = one;
     }
     Ok(())
 }

@@ -25,7 +25,7 @@ use geometry::error::{Advice, guarded, lock};
 use records::history::{History, SetAside};
 
 /// How often the history is checked for unsent rows.
-const TURN: Duration = Duration::from_secs(1);
+const POLL_INTERVAL: Duration = Duration::from_secs(1);
 /// Pause after the first failure; each further pause is twice as long, up to the longest. A random factor of 0.5 to 1 keeps
 /// the cells of a plant from reconnecting all at once.
 const FIRST_PAUSE: Duration = Duration::from_millis(500);
@@ -178,7 +178,7 @@ impl Shared {
             let wait = match sent.unwrap_or_else(|fault| Err(fault.into())) {
                 Ok(()) => {
                     pause = FIRST_PAUSE;
-                    TURN
+                    POLL_INTERVAL
                 }
                 Err(error) => {
                     database = None;

@@ -51,7 +51,7 @@ const MAX_HEAD_FIELDS: usize = 64;
 /// How long a client may take to accept its answer before it is disconnected.
 const WRITE_TIMEOUT: Duration = Duration::from_secs(10);
 /// How often that is checked.
-const TURN: Duration = Duration::from_secs(1);
+const POLL_INTERVAL: Duration = Duration::from_secs(1);
 /// How long the remaining input is read and discarded before the connection is closed.
 pub(super) const LINGER: Duration = Duration::from_secs(1);
 
@@ -134,7 +134,7 @@ impl Service {
             .max_buf_size(MAX_HEAD_BYTES)
             .max_headers(MAX_HEAD_FIELDS)
             .serve_connection(TokioIo::new(stream), service);
-        let mut turn = interval(TURN);
+        let mut poll = interval(POLL_INTERVAL);
         let mut is_stopping = false;
         loop {
             select! {
@@ -147,7 +147,7 @@ impl Service {
                     is_stopping = true;
                     Pin::new(&mut connection).graceful_shutdown();
                 }
-                _ = turn.tick() => {
+                _ = poll.tick() => {
                     if state.is_stuck(request_timeout) {
                         return;
                     }

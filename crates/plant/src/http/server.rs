@@ -35,7 +35,7 @@ use serve::{ClientNews, ServeError, ServerHandle, bound};
 /// Maximum number of connections. Each takes about 50 kB with TLS.
 const MAX_CONNECTIONS: usize = 256;
 /// How often the listener checks whether the service is ending.
-const TURN: Duration = Duration::from_millis(100);
+const POLL_INTERVAL: Duration = Duration::from_millis(100);
 /// Pause before the next attempt if the system has no sockets left.
 const ACCEPT_PAUSE: Duration = Duration::from_millis(10);
 
@@ -159,7 +159,7 @@ async fn listen(listener: &TcpListener, api: Arc<Api>, tls: Option<Tls>, is_endi
         stopping,
     };
     let mut connections = Connections::default();
-    let mut turn = interval(TURN);
+    let mut poll = interval(POLL_INTERVAL);
     while !is_ending.load(Ordering::SeqCst) && !service.api.server.is_stopping() {
         select! {
             accepted = listener.accept() => match accepted {
@@ -171,7 +171,7 @@ async fn listen(listener: &TcpListener, api: Arc<Api>, tls: Option<Tls>, is_endi
                 }
                 Err(_) => sleep(ACCEPT_PAUSE).await,
             },
-            _ = turn.tick() => {}
+            _ = poll.tick() => {}
         }
     }
     drop(stop);

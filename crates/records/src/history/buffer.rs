@@ -235,9 +235,7 @@ impl HistoryBuffer {
     pub fn set_part_label(&self, hung: &HungId, label: Option<&Truth>) {
         match self.part(hung) {
             Ok(Some(row)) => self.set_label(row.number, label),
-            Ok(None) => self.not_changed(&HistoryError::NoSuchPart {
-                path: self.place.clone().unwrap_or_default().join(FILE),
-            }),
+            Ok(None) => self.not_changed(&self.no_such_part()),
             Err(error) => self.not_changed(&error),
         }
     }
@@ -253,12 +251,10 @@ impl HistoryBuffer {
         let mut inner = self.lock();
         self.look(&mut inner);
         let Some(mut row) = inner.part(hung)? else {
-            return match &self.place {
-                Some(place) => Err(HistoryError::NoSuchPart {
-                    path: place.join(FILE),
-                }),
-                None => Ok(None),
-            };
+            if self.place.is_none() {
+                return Ok(None);
+            }
+            return Err(self.no_such_part());
         };
         let number = row.number;
         let set = |row: &mut Summary| {
@@ -274,6 +270,12 @@ impl HistoryBuffer {
         set(&mut row);
         self.tell(HistoryEvent::FilesChanged);
         Ok(Some(row))
+    }
+
+    fn no_such_part(&self) -> HistoryError {
+        HistoryError::NoSuchPart {
+            path: self.place.clone().unwrap_or_default().join(FILE),
+        }
     }
 
     fn change(
@@ -476,7 +478,7 @@ impl HistoryBuffer {
                         self.sweep(inner);
                     }
                     let (number, frame) = written?;
-                    self.tell_of_frame(inner, frame);
+                    self.report_frame(inner, frame);
                     return Ok(Some(number));
                 }
             }
@@ -484,7 +486,7 @@ impl HistoryBuffer {
     }
 
     /// Reports the first frame that could not be kept, and the first that was kept after it.
-    fn tell_of_frame(&self, inner: &mut Inner, frame: Result<bool, HistoryError>) {
+    fn report_frame(&self, inner: &mut Inner, frame: Result<bool, HistoryError>) {
         match frame {
             Ok(true) => {
                 if std::mem::take(&mut inner.loses_frames) {

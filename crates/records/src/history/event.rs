@@ -41,7 +41,7 @@ pub enum HistoryEvent {
         /// What to do about it.
         advice: String,
     },
-    /// A frame that the rule keeps could not be written. Told once, until one is.
+    /// A frame that the rule keeps could not be written. Reported once, until a frame is kept again.
     FramesNotKept {
         /// The error.
         what: String,

@@ -133,7 +133,7 @@ impl Writer {
     }
 
     /// Queues the true label of a part; `None` clears it.
-    pub fn label_part(&self, hung: HungId, label: Option<Truth>) {
+    pub fn set_part_label(&self, hung: HungId, label: Option<Truth>) {
         self.post(move |keeper| keeper.set_part_label(&hung, label.as_ref()));
     }
 

@@ -51,7 +51,7 @@ impl LineCalibration {
                 to: pose.count,
             });
         }
-        let (before, after) = (Mean::of(&moving), Mean::of(&standing));
+        let (before, after) = (Mean::new(&moving), Mean::new(&standing));
         let free = (before.num + after.num - 2.0).max(1.0);
         let scatter = ((before.squares + after.squares) / free).sqrt();
         let noise = BOUND_DEVIATIONS * scatter * (1.0 / before.num + 1.0 / after.num).sqrt();
@@ -86,7 +86,7 @@ struct Mean {
 }
 
 impl Mean {
-    fn of(poses: &[(f64, f64)]) -> Self {
+    fn new(poses: &[(f64, f64)]) -> Self {
         let num = poses.len().max(1) as f64;
         let off = poses.iter().map(|(off, _)| off).sum::<f64>() / num;
         Self {

@@ -316,11 +316,12 @@ impl LibraryCache {
         let (given, taken_version) = (choice.given.clone(), choice.taken_version);
         let known = choice.loaded.clone();
         drop(choice);
-        if known.is_some_and(|known| known.is_unchanged()) {
+        let known = known.as_deref();
+        if known.is_some_and(LoadedLibrary::is_unchanged) {
             return Ok(None);
         }
         // The lock is released while loading, so that no other thread waits for the disk.
-        let found = Arc::new(load(given.as_deref(), taken_version)?);
+        let found = Arc::new(load(given.as_deref(), taken_version, known)?);
         let mut choice = self.lock();
         let known = choice.loaded.as_ref();
         let is_known = known.is_some_and(|known| known.shown.is_same(&found.shown));
@@ -361,7 +362,8 @@ impl LibraryCache {
 
 impl Choice {
     fn load(&mut self) -> Result<Arc<LoadedLibrary>, LibraryError> {
-        let loaded = Arc::new(load(self.given.as_deref(), self.taken_version)?);
+        let former = self.loaded.as_deref();
+        let loaded = Arc::new(load(self.given.as_deref(), self.taken_version, former)?);
         self.loaded = Some(Arc::clone(&loaded));
         Ok(loaded)
     }
@@ -399,12 +401,15 @@ impl Choice {
 fn load(
     given: Option<&Path>,
     taken_version: Option<ReadTakenVersion>,
+    former: Option<&LoadedLibrary>,
 ) -> Result<LoadedLibrary, LibraryError> {
     let place = open_library(given)?;
     // Before the parts, so that the next look notices what changes meanwhile.
     let entries = place.folder().map(|folder| entries(folder.path()));
     let entries = entries.filter(|entries| folder_watch::are_settled(entries));
-    let load = place.load(&ReferenceParams::default())?;
+    let none = Library::default();
+    let former = former.map_or(&none, |former| former.library.as_ref());
+    let load = place.load_after(&ReferenceParams::default(), former)?;
     let identity = load.identity();
     let LibraryLoad {
         library,

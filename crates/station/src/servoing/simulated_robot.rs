@@ -36,7 +36,7 @@ const ANSWER_TIMEOUT: Duration = Duration::from_secs(1);
 /// How far it goes on without a frame that has been inspected.
 const MAX_AHEAD: Duration = Duration::from_millis(300);
 /// How often it looks whether a frame counts by now.
-const TURN: Duration = Duration::from_millis(2);
+const POLL_INTERVAL: Duration = Duration::from_millis(2);
 /// Tries to find two free ports that belong together.
 const MAX_TRIES: usize = 50;
 
@@ -113,7 +113,7 @@ impl SimulatedRobot {
         let due = at + delay;
         *lock(&self.shared.looked_at) = due;
         while self.now().0 < due && !is_over.load(Ordering::SeqCst) {
-            thread::sleep(TURN);
+            thread::sleep(POLL_INTERVAL);
         }
         seen
     }

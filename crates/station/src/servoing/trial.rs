@@ -33,7 +33,7 @@ impl Default for SimulatedTrial {
             delay: Duration::ZERO,
             hand_eye: HandEyeError {
                 shift: Metres(0.02),
-                turn: Radians(0.035),
+                turn: Radians::from_degrees(2.0),
             },
             play: Radians(2.0 * ArmDynamics::default().backlash),
         }
@@ -57,9 +57,7 @@ impl SimulatedTrial {
         library: &'a Library,
     ) -> Result<SimulatedCell<'a>, ServoRunError> {
         reference_of(library, part)?;
-        let mut kinds = PartKind::ALL.into_iter();
-        let kind = kinds.find(|kind| kind.name() == part);
-        let kind = kind.ok_or_else(|| ServoRunError::NotSimulated {
+        let kind = PartKind::from_name(part).ok_or_else(|| ServoRunError::NotSimulated {
             part: part.to_owned(),
         })?;
         let setup = CellSetup {

@@ -95,7 +95,7 @@ impl HistoryWorkspace {
                 HistoryJob::Trace(hung, change) => self.writer.trace(hung, change),
                 HistoryJob::Remark(number, remark) => self.writer.remark(number, remark),
                 HistoryJob::Label(number, label) => self.writer.label(number, label),
-                HistoryJob::LabelPart(part, label) => self.writer.label_part(part, label),
+                HistoryJob::LabelPart(part, label) => self.writer.set_part_label(part, label),
                 HistoryJob::Keep(rule) => self.writer.retention(rule),
             }
         }

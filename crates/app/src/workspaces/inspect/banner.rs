@@ -386,7 +386,7 @@ mod tests {
     use geometry::rigid::RigidTransform;
     use inspection::pipeline::{
         Rejection,
-        live::{LiveVerdict, MotionState, Pace},
+        live::{InspectionRate, LiveVerdict, MotionState},
     };
     use robot::RobotFrame;
     use shell::{
@@ -607,7 +607,7 @@ mod tests {
         session.live.is_on = true;
         session.live.status = Some(LiveStatus {
             stillness: Some(MotionState::Watching),
-            held_up_by: Some(Pace {
+            held_up_by: Some(InspectionRate {
                 num_inspected: 2,
                 num_frames: 30,
             }),

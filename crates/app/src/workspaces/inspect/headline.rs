@@ -103,12 +103,12 @@ impl Headline {
                     Some(now) => now,
                 };
                 let headline = Self::not_yet(inspected, stillness, is_moving);
-                let pace = session.live.status.as_ref().filter(|_| is_moving);
-                let Some(pace) = pace.and_then(|status| status.held_up_by) else {
+                let rate = session.live.status.as_ref().filter(|_| is_moving);
+                let Some(rate) = rate.and_then(|status| status.held_up_by) else {
                     return headline;
                 };
                 let part = headline.nearest.clone().unwrap_or_default();
-                let why = pace.refusal(part);
+                let why = rate.refusal(part);
                 return Self {
                     title: text!("inspect-looking"),
                     complaint: Some((described(&why), advised(&why))),
@@ -257,7 +257,7 @@ mod tests {
         library::Truth,
         pipeline::{
             Rejection,
-            live::{LiveVerdict, Pace},
+            live::{InspectionRate, LiveVerdict},
         },
     };
     use shell::{
@@ -353,7 +353,7 @@ mod tests {
             assert_eq!(headline.state, HeadlineState::Open);
             headline.complaint.expect("said")
         };
-        let slow = Pace {
+        let slow = InspectionRate {
             num_inspected: 2,
             num_frames: 30,
         };

@@ -3,7 +3,7 @@ mod interrupted;
 mod rename;
 mod replace_all;
 
-use std::sync::Mutex;
+use std::sync::{Arc, Mutex};
 
 use jiff::Timestamp;
 use nalgebra::Point3;
@@ -97,6 +97,44 @@ fn a_saved_part_comes_back_as_it_was() {
     assert_eq!(load.parts[1], saved.meta);
     assert_eq!(load.library.references[1].name, "b");
     assert_eq!(*load.library.references[1].cloud, saved.cloud);
+}
+
+#[test]
+fn only_the_changed_parts_of_a_library_are_prepared_again() {
+    let (_guard, library) = library();
+    for i in 0..20 {
+        let name = format!("part_{i}");
+        library.save(&part(&name, 0.5)).expect("saved");
+    }
+    let former = load(&library).library;
+    let prepared_again = |params: &ReferenceParams| -> Vec<String> {
+        let load = library.load_after(params, &former).expect("listed");
+        let both = load.library.references.iter().zip(&former.references);
+        let again = both.filter(|(now, before)| !Arc::ptr_eq(&now.cloud, &before.cloud));
+        again.map(|(now, _)| now.enrolled_as.clone()).collect()
+    };
+    let mut params = ReferenceParams::default();
+    assert_eq!(prepared_again(&params), [""; 0]);
+    library.save(&part("part_7", 0.4)).expect("saved");
+    assert_eq!(prepared_again(&params), ["part_7"]);
+    let mut cut = part("part_3", 0.5);
+    cut.meta.cut.left = Some(-0.1);
+    library.save(&cut).expect("saved");
+    assert_eq!(prepared_again(&params), ["part_3", "part_7"]);
+    let mut second = part("part_5", 0.5);
+    second.meta.part = Some(part_name("part_1"));
+    library.save(&second).expect("saved");
+    let load = library.load_after(&params, &former).expect("listed");
+    let second = load
+        .library
+        .references
+        .iter()
+        .find(|one| one.enrolled_as == "part_5");
+    let before = former.references.iter().find(|one| one.name == "part_5");
+    let (second, before) = (second.expect("there"), before.expect("there"));
+    assert!(second.name == "part_1" && Arc::ptr_eq(&second.cloud, &before.cloud));
+    params.signature.num_rays = 128;
+    assert_eq!(prepared_again(&params).len(), 20);
 }
 
 #[test]

@@ -14,8 +14,8 @@
 mod average;
 mod consensus;
 mod hung;
+mod inspection_rate;
 mod mean_pose;
-mod pace;
 mod spots;
 mod steady;
 mod two_frames;
@@ -24,13 +24,13 @@ use std::{sync::Arc, time::Duration};
 
 use nalgebra::Point3;
 
-use self::pace::PaceMeter;
+use self::inspection_rate::InspectionRateMeter;
 pub use self::{
     average::{DepthAverage, MAX_AVERAGED},
     consensus::{Consensus, ConsensusParams, ConsensusVerdict},
     hung::{FrameRole, HungFrame, HungParts, Left},
+    inspection_rate::InspectionRate,
     mean_pose::{MeanPose, PoseTolerance, mean_pose},
-    pace::Pace,
     spots::{nothing_there, spots_of},
     steady::{MotionDetector, MotionState, SceneMotion, SteadyParams},
     two_frames::{poses_agree, refuse_moving, refuse_unless_again},
@@ -95,7 +95,7 @@ pub struct LiveTracker {
     motion: SceneMotion,
     /// Within this time after the scene came to rest, a part may still move a little.
     spell: Duration,
-    pace: PaceMeter,
+    rate: InspectionRateMeter,
     average: DepthAverage,
     consensus_params: ConsensusParams,
     /// That of each spot where a part may hang.
@@ -112,7 +112,7 @@ impl LiveTracker {
             steady: MotionDetector::new(params.steady.clone()),
             motion: SceneMotion::default(),
             spell: params.steady.spell(),
-            pace: PaceMeter::default(),
+            rate: InspectionRateMeter::default(),
             average: DepthAverage::over(params.average),
             consensus_params: params.consensus.clone(),
             consensus: Vec::new(),
@@ -203,17 +203,17 @@ impl LiveTracker {
     /// Counts the frame that was judged. `number` is counted by the camera; `waits` says whether a verdict on a part waits for
     /// further frames.
     pub fn judged(&mut self, number: u64, waits: bool) {
-        self.pace.add(self.last_at, number, waits);
+        self.rate.add(self.last_at, number, waits);
     }
 
-    /// The pace, if fewer than half of the camera's frames are inspected.
-    pub fn slow(&self) -> Option<Pace> {
-        self.pace.slow()
+    /// The rate, if fewer than half of the camera's frames are inspected.
+    pub fn slow(&self) -> Option<InspectionRate> {
+        self.rate.slow()
     }
 
-    /// The pace, if a verdict has waited two seconds or longer because fewer than half of the camera's frames are inspected.
-    pub fn held_up_by(&self) -> Option<Pace> {
-        self.pace.holds_up()
+    /// The rate, if a verdict has waited two seconds or longer because fewer than half of the camera's frames are inspected.
+    pub fn held_up_by(&self) -> Option<InspectionRate> {
+        self.rate.holds_up()
     }
 }
 

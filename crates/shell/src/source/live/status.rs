@@ -165,7 +165,7 @@ mod tests {
     use std::time::Duration;
 
     use super::*;
-    use inspection::pipeline::live::Pace;
+    use inspection::pipeline::live::InspectionRate;
 
     fn running(stillness: Option<MotionState>) -> LiveStatus {
         LiveStatus {
@@ -205,7 +205,7 @@ mod tests {
             words.contains("computer too slow")
         };
         let slow = LiveStatus {
-            held_up_by: Some(Pace {
+            held_up_by: Some(InspectionRate {
                 num_inspected: 2,
                 num_frames: 30,
             }),

@@ -27,7 +27,10 @@ use inspection::{
     library::Library,
     pipeline::{
         self, Inspection, NamedRecipe, ProgressObserver, Verdict,
-        live::{FrameRole, LiveParams, LiveTracker, LiveVerdict, MAX_AVERAGED, MotionState, Pace},
+        live::{
+            FrameRole, InspectionRate, LiveParams, LiveTracker, LiveVerdict, MAX_AVERAGED,
+            MotionState,
+        },
     },
 };
 use records::history::{NewEntry, Traceability};
@@ -153,8 +156,8 @@ pub struct LiveStatus {
     pub rates: [Option<f64>; 2],
     /// Median time from a frame's arrival to its verdict, over the last frames.
     pub latency: Option<Duration>,
-    /// The pace, if a verdict has waited two seconds or longer because fewer than half of the camera's frames are inspected.
-    pub held_up_by: Option<Pace>,
+    /// The rate, if a verdict has waited two seconds or longer because fewer than half of the camera's frames are inspected.
+    pub held_up_by: Option<InspectionRate>,
     /// Frames inspected since the start.
     pub num_inspected: u64,
     /// Frames dropped for a newer one since the start.

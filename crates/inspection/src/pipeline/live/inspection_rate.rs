@@ -6,14 +6,14 @@ use crate::pipeline::Rejection;
 
 /// Frames that a camera delivered in about a second, and those of them that were inspected.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Pace {
+pub struct InspectionRate {
     /// Frames that were inspected.
     pub num_inspected: usize,
     /// Frames that the camera delivered.
     pub num_frames: usize,
 }
 
-impl Pace {
+impl InspectionRate {
     /// True if fewer than half of the frames are inspected.
     fn is_slow(self) -> bool {
         2 * self.num_inspected < self.num_frames
@@ -40,14 +40,14 @@ const PATIENCE: Duration = Duration::from_secs(2);
 
 /// Counts the frames of one camera.
 #[derive(Debug, Default)]
-pub(super) struct PaceMeter {
+pub(super) struct InspectionRateMeter {
     /// Times and numbers of the inspected frames of the last second, and of the one before those.
     inspected: VecDeque<(Duration, u64)>,
     /// Since when a verdict has waited while fewer than half of the frames were inspected.
     waits_since: Option<Duration>,
 }
 
-impl PaceMeter {
+impl InspectionRateMeter {
     /// Counts an inspected frame. `number` is counted by the camera, `waits` says whether a verdict on a part waits for further
     /// frames.
     pub(super) fn add(&mut self, at: Duration, number: u64, waits: bool) {
@@ -67,18 +67,18 @@ impl PaceMeter {
         };
     }
 
-    /// The pace, if fewer than half of the frames are inspected.
-    pub(super) fn slow(&self) -> Option<Pace> {
+    /// The rate, if fewer than half of the frames are inspected.
+    pub(super) fn slow(&self) -> Option<InspectionRate> {
         let (first, last) = (self.inspected.front()?, self.inspected.back()?);
-        let pace = Pace {
+        let rate = InspectionRate {
             num_inspected: self.inspected.len() - 1,
             num_frames: usize::try_from(last.1 - first.1).unwrap_or(usize::MAX),
         };
-        pace.is_slow().then_some(pace)
+        rate.is_slow().then_some(rate)
     }
 
-    /// The pace, if a verdict has waited for it long enough to tell.
-    pub(super) fn holds_up(&self) -> Option<Pace> {
+    /// The rate, if a verdict has waited for it long enough to tell.
+    pub(super) fn holds_up(&self) -> Option<InspectionRate> {
         let (last, _) = self.inspected.back()?;
         let waited = last.saturating_sub(self.waits_since?);
         self.slow().filter(|_| waited >= PATIENCE)
@@ -89,9 +89,9 @@ impl PaceMeter {
 mod tests {
     use super::*;
 
-    /// What is said after each inspected frame of a camera with 30 frames a second, of which one in `step` is inspected.
-    fn said(step: u64, waits: impl Fn(f64) -> bool) -> Vec<(f64, Option<Pace>)> {
-        let mut meter = PaceMeter::default();
+    /// The warnings after each inspected frame of a camera with 30 frames a second, of which one in `step` is inspected.
+    fn warnings(step: u64, waits: impl Fn(f64) -> bool) -> Vec<(f64, Option<InspectionRate>)> {
+        let mut meter = InspectionRateMeter::default();
         let frames = (0..300).step_by(step as usize).map(|number| {
             let at = Duration::from_secs(number) / 30;
             let seconds = at.as_secs_f64();
@@ -104,33 +104,37 @@ mod tests {
     #[test]
     fn a_slow_computer_is_named_after_two_seconds_in_which_a_verdict_waits_and_no_longer() {
         let waits = |seconds: f64| (2.0..6.2).contains(&seconds);
-        for (seconds, pace) in said(15, waits) {
-            let expected = Pace {
+        for (seconds, rate) in warnings(15, waits) {
+            let expected = InspectionRate {
                 num_inspected: 2,
                 num_frames: 30,
             };
             let is_warned = (4.0..6.2).contains(&seconds);
-            assert_eq!(pace, is_warned.then_some(expected), "after {seconds} s");
+            assert_eq!(rate, is_warned.then_some(expected), "after {seconds} s");
         }
         // Half of the frames are enough: no verdict waits.
-        assert!(said(2, |_| true).iter().all(|(_, pace)| pace.is_none()));
-        assert!(said(15, |_| false).iter().all(|(_, pace)| pace.is_none()));
+        assert!(warnings(2, |_| true).iter().all(|(_, rate)| rate.is_none()));
+        assert!(
+            warnings(15, |_| false)
+                .iter()
+                .all(|(_, rate)| rate.is_none())
+        );
     }
 
     #[test]
     fn frames_further_apart_than_the_window_count_from_the_one_before() {
-        let of_slow = said(90, |_| true);
-        let expected = Pace {
+        let of_slow = warnings(90, |_| true);
+        let expected = InspectionRate {
             num_inspected: 1,
             num_frames: 90,
         };
-        assert!(of_slow[..2].iter().all(|(_, pace)| pace.is_none()));
-        assert!(of_slow[2..].iter().all(|(_, pace)| *pace == Some(expected)));
+        assert!(of_slow[..2].iter().all(|(_, rate)| rate.is_none()));
+        assert!(of_slow[2..].iter().all(|(_, rate)| *rate == Some(expected)));
     }
 
     #[test]
     fn one_stall_of_three_seconds_says_nothing() {
-        let mut meter = PaceMeter::default();
+        let mut meter = InspectionRateMeter::default();
         for number in (0..=60).chain(150..300) {
             meter.add(Duration::from_secs(number) / 30, number, true);
             assert_eq!(meter.holds_up(), None, "at frame {number}");
@@ -139,7 +143,7 @@ mod tests {
 
     #[test]
     fn a_source_that_is_opened_again_is_counted_anew() {
-        let mut meter = PaceMeter::default();
+        let mut meter = InspectionRateMeter::default();
         for number in 1..8 {
             meter.add(Duration::from_millis(500 * number), 15 * number, true);
         }
