@@ -14,7 +14,7 @@ use super::{
     scan::{PosesChoice, open_scan},
 };
 use capture::CaptureWarning;
-use files::{self, FileContent, FileError, NamedMesh};
+use files::{self, FileContent, FileError, NamedMesh, OpenedFile};
 use geometry::{cloud::Grid, error::Advice as _, units::counted};
 use inspection::library::{
     EnrolError, EnrolParams, EnrolWarning, Enrolled, LibraryError, LibraryFolder, MAX_TITLE,
@@ -294,7 +294,7 @@ const MAX_LISTED: usize = 30;
 
 /// Lists the meshes to choose from, with their sizes, the longest first.
 fn list_meshes(file: &Path, console: &Console) {
-    let Ok(Some(listed)) = files::meshes_in(file) else {
+    let Ok(OpenedFile::Several(listed)) = files::open_each(file) else {
         return;
     };
     let mm = 1000.0 * listed.options.unit.metres();

@@ -424,9 +424,9 @@ mod tests {
         }
         std::fs::write(&path, text).expect("written");
         let with_unit = PathBuf::from(format!("{}#units=mm", path.display()));
-        let file = files::meshes_in(&with_unit)
-            .expect("read")
-            .expect("several");
+        let files::OpenedFile::Several(file) = files::open_each(&with_unit).expect("read") else {
+            panic!("several");
+        };
         (MeshList::new(Arc::new(MeshListing::of(file))), folder)
     }
 
