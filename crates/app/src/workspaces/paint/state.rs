@@ -311,7 +311,7 @@ impl PaintState {
         let Some(planned) = self.planned.as_ref().filter(|_| !self.is_old(cx.session)) else {
             return;
         };
-        let (part, path) = (planned.part.clone(), planned.path.clone());
+        let (part, path) = (planned.part.clone(), SprayPath::clone(&planned.path));
         self.store(None, part, Some(path), cx);
     }
 
