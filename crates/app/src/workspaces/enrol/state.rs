@@ -208,7 +208,7 @@ impl EnrolState {
     pub fn apply(&mut self, action: EnrolAction, cx: &mut ShellContext<'_>) {
         if cx.session.role == UserRole::Operator {
             self.held = Some(action);
-            cx.send(Action::EngineerIn(WorkspaceKind::Enrol));
+            cx.send(Action::AskEngineer(WorkspaceKind::Enrol));
             return;
         }
         let library = cx.session.library.as_deref();
