@@ -298,9 +298,8 @@ fn list_meshes(file: &Path, console: &Console) {
         return;
     };
     let mm = 1000.0 * listed.options.unit.metres();
-    let longest = |named: &NamedMesh| named.size().map_or(0.0, |sides| sides.max());
     let mut meshes: Vec<&NamedMesh> = listed.meshes.iter().collect();
-    meshes.sort_by(|a, b| longest(b).total_cmp(&longest(a)));
+    meshes.sort_by(|a, b| b.longest_side().total_cmp(&a.longest_side()));
     for named in meshes.iter().take(MAX_LISTED) {
         let name = &named.name;
         match (named.size(), &named.mesh) {
