@@ -61,7 +61,7 @@ align-nearer-start = Einen näheren Start wählen
 
 ## The plot
 align-genetic-search = genetische Suche
-align-goal = Schwelle 1e-6 (Algorithmus 3)
+align-threshold = Schwelle 1e-6 (Algorithmus 3)
 align-iteration = Iteration { $iteration } von { $last }
 align-iteration-hint = Iteration { $iteration } von { $last } · ziehen zum Durchgehen, P zum Abspielen
 align-scrubber = Angezeigte Iteration

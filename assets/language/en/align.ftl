@@ -61,7 +61,7 @@ align-nearer-start = Choose a start that is nearer
 
 ## The plot
 align-genetic-search = genetic search
-align-goal = threshold 1e-6 (Algorithm 3)
+align-threshold = threshold 1e-6 (Algorithm 3)
 align-iteration = iteration { $iteration } of { $last }
 align-iteration-hint = iteration { $iteration } of { $last } · drag to scrub, P to play
 align-scrubber = Iteration shown

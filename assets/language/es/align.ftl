@@ -61,7 +61,7 @@ align-nearer-start = Elegir un inicio más cercano
 
 ## The plot
 align-genetic-search = búsqueda genética
-align-goal = umbral 1e-6 (algoritmo 3)
+align-threshold = umbral 1e-6 (algoritmo 3)
 align-iteration = iteración { $iteration } de { $last }
 align-iteration-hint = iteración { $iteration } de { $last } · arrastrar para recorrer, P para reproducir
 align-scrubber = Iteración mostrada

@@ -61,7 +61,7 @@ align-nearer-start = 请选择更近的起始位姿
 
 ## The plot
 align-genetic-search = 遗传搜索
-align-goal = 阈值 1e-6（算法 3）
+align-threshold = 阈值 1e-6（算法 3）
 align-iteration = 迭代 { $iteration } / { $last }
 align-iteration-hint = 迭代 { $iteration } / { $last } · 拖动以查看，按 P 播放
 align-scrubber = 显示的迭代
