@@ -91,7 +91,7 @@ pub(super) fn enrolled<'a>(
     loaded: &'a LoadedLibrary,
     part: &PartName,
 ) -> Result<(usize, &'a Reference), UserError> {
-    let index = loaded.shown.place_of(part.as_str());
+    let index = loaded.shown.index_of(part.as_str());
     let found = index.and_then(|index| Some((index, loaded.library.references.get(index)?)));
     found.ok_or_else(|| UserError {
         what: text!("paint-no-such-part", part = part.as_str()),
