@@ -14,7 +14,7 @@ use super::{
     scan::{PosesChoice, open_scan},
 };
 use capture::CaptureWarning;
-use files::{self, FileContent, FileError, NamedMesh};
+use files::{self, FileContent, FileError, NamedMesh, OpenedFile};
 use geometry::{cloud::Grid, error::Advice as _, units::counted};
 use inspection::library::{
     EnrolError, EnrolParams, EnrolWarning, Enrolled, LibraryError, LibraryFolder, MAX_TITLE,
@@ -294,13 +294,12 @@ const MAX_LISTED: usize = 30;
 
 /// Lists the meshes to choose from, with their sizes, the longest first.
 fn list_meshes(file: &Path, console: &Console) {
-    let Ok(Some(listed)) = files::meshes_in(file) else {
+    let Ok(OpenedFile::Several(listed)) = files::open_each(file) else {
         return;
     };
     let mm = 1000.0 * listed.options.unit.metres();
-    let longest = |named: &NamedMesh| named.size().map_or(0.0, |sides| sides.max());
     let mut meshes: Vec<&NamedMesh> = listed.meshes.iter().collect();
-    meshes.sort_by(|a, b| longest(b).total_cmp(&longest(a)));
+    meshes.sort_by(|a, b| b.longest_side().total_cmp(&a.longest_side()));
     for named in meshes.iter().take(MAX_LISTED) {
         let name = &named.name;
         match (named.size(), &named.mesh) {

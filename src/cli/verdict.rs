@@ -205,7 +205,7 @@ fn turn_words(inspection: &Inspection) -> String {
 fn stopped_words(stopped: Stopped) -> &'static str {
     match stopped {
         Stopped::Converged => "converged",
-        Stopped::BelowTarget => "below its target",
+        Stopped::BelowThreshold => "below its threshold",
         Stopped::IterationLimit => "stopped at the iteration limit",
         Stopped::NoProgress => "stopped without progress",
     }

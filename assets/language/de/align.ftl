@@ -61,7 +61,7 @@ align-nearer-start = Einen näheren Start wählen
 
 ## The plot
 align-genetic-search = genetische Suche
-align-goal = Schwelle 1e-6 (Algorithmus 3)
+align-threshold = Schwelle 1e-6 (Algorithmus 3)
 align-iteration = Iteration { $iteration } von { $last }
 align-iteration-hint = Iteration { $iteration } von { $last } · ziehen zum Durchgehen, P zum Abspielen
 align-scrubber = Angezeigte Iteration
@@ -89,7 +89,7 @@ align-best = bestes
 align-no-pose = keine Pose
 align-true-error = Wahrer Fehler bei diesem Start
 align-uncertainty = Unsicherheit der Ausrichtung (95 %)
-align-uncertainty-says = Wie weit diese Lagen daneben liegen können, so wie die Punkte der beiden Wolken sie festlegen. Prüfen findet seine Lage auch mit dem Umriss im Bild, der das Teil entlang seiner Fläche festlegt: Dessen Unsicherheit gilt für eine andere Lage und ist meist kleiner
+align-uncertainty-says = Wie weit diese Lagen daneben liegen können, allein nach den Punkten der beiden Wolken. Prüfen nutzt auch den Umriss im Bild, daher ist die Unsicherheit seiner Lage meist kleiner
 align-method = Verfahren
 align-rotation = Drehung
 align-shift = Verschiebung

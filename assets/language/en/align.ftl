@@ -61,7 +61,7 @@ align-nearer-start = Choose a start that is nearer
 
 ## The plot
 align-genetic-search = genetic search
-align-goal = threshold 1e-6 (Algorithm 3)
+align-threshold = threshold 1e-6 (Algorithm 3)
 align-iteration = iteration { $iteration } of { $last }
 align-iteration-hint = iteration { $iteration } of { $last } · drag to scrub, P to play
 align-scrubber = Iteration shown
@@ -89,7 +89,7 @@ align-best = best
 align-no-pose = no pose
 align-true-error = True error at this start
 align-uncertainty = Uncertainty of the alignment (95 %)
-align-uncertainty-says = How far off these poses may be, as the points of the two clouds hold them. Inspect finds its pose with the outline in the picture too, which holds the part along its surface: its pose uncertainty is that of another pose, and usually smaller
+align-uncertainty-says = How far off these poses may be, by the points of the two clouds alone. Inspect also uses the outline in the picture, so the uncertainty of its pose is usually smaller
 align-method = method
 align-rotation = rotation
 align-shift = shift

@@ -61,7 +61,7 @@ align-nearer-start = Elegir un inicio más cercano
 
 ## The plot
 align-genetic-search = búsqueda genética
-align-goal = umbral 1e-6 (algoritmo 3)
+align-threshold = umbral 1e-6 (algoritmo 3)
 align-iteration = iteración { $iteration } de { $last }
 align-iteration-hint = iteración { $iteration } de { $last } · arrastrar para recorrer, P para reproducir
 align-scrubber = Iteración mostrada
@@ -89,7 +89,7 @@ align-best = el mejor
 align-no-pose = sin pose
 align-true-error = Error real con este inicio
 align-uncertainty = Incertidumbre de la alineación (95 %)
-align-uncertainty-says = Cuánto pueden desviarse estas poses, según las fijan los puntos de las dos nubes. Inspección halla su pose también con el contorno en la imagen, que fija la pieza a lo largo de su superficie: su incertidumbre es la de otra pose y suele ser menor
+align-uncertainty-says = Cuánto pueden desviarse estas poses, solo según los puntos de las dos nubes. Inspección usa también el contorno en la imagen, por lo que la incertidumbre de su pose suele ser menor
 align-method = método
 align-rotation = rotación
 align-shift = desplazam.

@@ -61,7 +61,7 @@ align-nearer-start = 请选择更近的起始位姿
 
 ## The plot
 align-genetic-search = 遗传搜索
-align-goal = 阈值 1e-6（算法 3）
+align-threshold = 阈值 1e-6（算法 3）
 align-iteration = 迭代 { $iteration } / { $last }
 align-iteration-hint = 迭代 { $iteration } / { $last } · 拖动以查看，按 P 播放
 align-scrubber = 显示的迭代
@@ -89,7 +89,7 @@ align-best = 最佳
 align-no-pose = 无位姿
 align-true-error = 该起始位姿下的真实误差
 align-uncertainty = 配准的不确定度（95 %）
-align-uncertainty-says = 仅凭两个点云的点，这些位姿可能的偏差。检测还利用图像中的轮廓求位姿，轮廓在沿表面方向约束零件：其位姿不确定度属于另一个位姿，通常更小
+align-uncertainty-says = 仅凭两个点云的点，这些位姿可能的偏差。检测还利用图像中的轮廓，因此其位姿的不确定度通常更小
 align-method = 方法
 align-rotation = 旋转
 align-shift = 平移

@@ -68,7 +68,7 @@ pub(crate) fn panel_frame(theme: &Theme, top: i8, bottom: i8) -> Frame {
     })
 }
 
-/// Returns the title of a true label; `None` if it is not set.
+/// Returns the title of a true label; of `None`, that it is not set.
 pub(crate) fn truth_title(truth: Option<&Truth>, library: &LibraryView) -> String {
     match truth {
         None => text!("shell-truth-not-set"),

@@ -259,7 +259,7 @@ impl Window {
             Action::TakeFile(path) => self.take_file(path, ctx),
             Action::Robot(action) => self.with_robot(ctx, |robot, cx| robot.apply(action, cx)),
             Action::Tell(event) => self.tell(&event, ctx),
-            Action::EngineerIn(kind) => {
+            Action::AskEngineer(kind) => {
                 self.lend(kind, ctx, |workspace, cx| {
                     workspace.on_event(&Event::EngineerIn, cx);
                 });

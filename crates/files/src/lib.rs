@@ -71,7 +71,7 @@ pub use self::import::file_of;
 pub use self::lock::FileLock;
 pub use self::named_meshes::{MeshFile, NamedMesh};
 pub use self::names::{nearest_name, stays_inside};
-pub use self::open::{meshes_in, open, open_bytes, read_depths, written_at};
+pub use self::open::{OpenedFile, open, open_bytes, open_each, read_depths, written_at};
 pub use self::pcd::write_pcd;
 pub use self::ply::{PointProperty, write_ply, write_ply_with};
 pub use self::source::{open_regular, read_bytes, read_limited, refuse_special, shortened};

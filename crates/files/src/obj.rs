@@ -115,7 +115,7 @@ fn parse(source: Source<'_>, wanted: Option<&str>) -> Result<Statements, FileErr
         objects,
         stretches,
     } = &mut all;
-    let mut places: HashMap<String, usize> = HashMap::new();
+    let mut indices: HashMap<String, usize> = HashMap::new();
     let mut is_wanted = wanted.is_none();
     let mut triangulation = Triangulation::default();
     let mut statement = String::new();
@@ -158,11 +158,11 @@ fn parse(source: Source<'_>, wanted: Option<&str>) -> Result<Statements, FileErr
                 let name = statement.trim_start().trim_start_matches('o').trim();
                 is_wanted = wanted.is_none_or(|wanted| wanted == name);
                 let next = objects.len();
-                let place = *places.entry(name.to_owned()).or_insert(next);
-                if place == next {
+                let index = *indices.entry(name.to_owned()).or_insert(next);
+                if index == next {
                     objects.push(name.to_owned());
                 }
-                stretches.push((place, triangles.len()));
+                stretches.push((index, triangles.len()));
             }
             _ => {}
         }

@@ -18,61 +18,27 @@ use geometry::error::guarded;
 /// a mesh are given in the same way: `door.stl#units=mm#up=z`. A file whose own name contains a `#` takes precedence.
 pub fn open(path: &Path) -> Result<FileContent, FileError> {
     let asked = AskedFile::of(path)?;
-    let content = read(
-        &asked.file,
-        &bytes_of(&asked.file)?,
-        asked.mesh_name.as_deref(),
-    )?;
-    Ok(match asked.options.applied(content) {
-        FileContent::Mesh(mesh) if is_capture(&mesh) && is_before_camera(&mesh) => {
-            FileContent::Cloud(PointCloud::from_points(mesh.vertices))
-        }
-        content => content,
-    })
+    asked.content(&bytes_of(&asked.file)?)
 }
 
-/// Reads every mesh of a glTF, or every object of an OBJ, for itself. `None` if the path names one of them, or if there are
-/// not several.
-pub fn meshes_in(path: &Path) -> Result<Option<MeshFile>, FileError> {
-    let AskedFile {
-        file,
-        options,
-        mesh_name,
-    } = AskedFile::of(path)?;
-    if mesh_name.is_some() {
-        return Ok(None);
+/// What [`open_each`] finds in a file.
+#[derive(Debug)]
+pub enum OpenedFile {
+    /// Every mesh of a glTF, or every object of an OBJ, for itself.
+    Several(MeshFile),
+    /// What [`open`] returns.
+    One(FileContent),
+}
+
+/// Like [`open`], but reads several meshes of a file each for itself, unless the path names one of them.
+pub fn open_each(path: &Path) -> Result<OpenedFile, FileError> {
+    let asked = AskedFile::of(path)?;
+    let bytes = bytes_of(&asked.file)?;
+    // Reading it as one says why it cannot be read, and names the meshes of a file too large to read each.
+    match asked.meshes(&bytes) {
+        Ok(Some(several)) => Ok(OpenedFile::Several(several)),
+        Ok(None) | Err(_) => asked.content(&bytes).map(OpenedFile::One),
     }
-    let bytes = bytes_of(&file)?;
-    let source = Source {
-        path: &file,
-        bytes: &bytes,
-    };
-    let (mut meshes, opens_whole) = without_panic(&file, || match recognise(source)? {
-        Format::Gltf => Ok((gltf::read_each(source)?, false)),
-        Format::Obj => Ok((obj::read_each(source)?, true)),
-        Format::Pcd | Format::Ply | Format::Stl | Format::DepthPng | Format::Xyz => {
-            Ok((Vec::new(), false))
-        }
-    })?;
-    if meshes.is_empty() {
-        return Ok(None);
-    }
-    let axes = ImportOptions {
-        up: options.up,
-        ..ImportOptions::default()
-    };
-    for mesh in meshes
-        .iter_mut()
-        .filter_map(|named| named.mesh.as_mut().ok())
-    {
-        axes.convert(&mut mesh.vertices);
-    }
-    Ok(Some(MeshFile {
-        file,
-        options,
-        meshes,
-        opens_whole,
-    }))
 }
 
 /// A path, split into the file and what the words behind it ask for.
@@ -103,6 +69,52 @@ impl AskedFile {
             options,
             mesh_name,
         })
+    }
+
+    /// Reads what is asked for.
+    fn content(&self, bytes: &[u8]) -> Result<FileContent, FileError> {
+        let content = read(&self.file, bytes, self.mesh_name.as_deref())?;
+        Ok(match self.options.applied(content) {
+            FileContent::Mesh(mesh) if is_capture(&mesh) && is_before_camera(&mesh) => {
+                FileContent::Cloud(PointCloud::from_points(mesh.vertices))
+            }
+            content => content,
+        })
+    }
+
+    /// Reads every mesh for itself; `None` if one is asked for by name, or if there are not several.
+    fn meshes(&self, bytes: &[u8]) -> Result<Option<MeshFile>, FileError> {
+        if self.mesh_name.is_some() {
+            return Ok(None);
+        }
+        let path = self.file.as_path();
+        let source = Source { path, bytes };
+        let (mut meshes, opens_whole) = without_panic(path, || match recognise(source)? {
+            Format::Gltf => Ok((gltf::read_each(source)?, false)),
+            Format::Obj => Ok((obj::read_each(source)?, true)),
+            Format::Pcd | Format::Ply | Format::Stl | Format::DepthPng | Format::Xyz => {
+                Ok((Vec::new(), false))
+            }
+        })?;
+        if meshes.is_empty() {
+            return Ok(None);
+        }
+        let axes = ImportOptions {
+            up: self.options.up,
+            ..ImportOptions::default()
+        };
+        for mesh in meshes
+            .iter_mut()
+            .filter_map(|named| named.mesh.as_mut().ok())
+        {
+            axes.convert(&mut mesh.vertices);
+        }
+        Ok(Some(MeshFile {
+            file: path.to_owned(),
+            options: self.options,
+            meshes,
+            opens_whole,
+        }))
     }
 }
 

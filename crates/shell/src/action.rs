@@ -92,8 +92,8 @@ pub enum Action {
     Robot(RobotAction),
     /// Send an event to every workspace.
     Tell(Event),
-    /// Tell this workspace, which asks for it, that the engineer's view is granted.
-    EngineerIn(WorkspaceKind),
+    /// Ask for the engineer's view, and tell this workspace once it is granted.
+    AskEngineer(WorkspaceKind),
     /// Close the window, unless something would be lost.
     Close,
     /// Remove this notice, if it is still shown.

@@ -106,7 +106,7 @@ pub fn apply(state: &mut State, action: Action) -> Option<Action> {
         | Action::TakeFile(_)
         | Action::Robot(_)
         | Action::Tell(_)
-        | Action::EngineerIn(_)
+        | Action::AskEngineer(_)
         | Action::CopyText(_)
         | Action::Close => return Some(action),
     }

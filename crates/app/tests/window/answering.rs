@@ -224,7 +224,7 @@ fn a_robot_is_told_the_pose_that_the_window_shows_and_the_history_keeps_it() {
     );
     let session = &harness.state().state().session;
     let library = session.library.as_ref().expect("loaded");
-    let index = library.place_of("fender").expect("enrolled");
+    let index = library.index_of("fender").expect("enrolled");
     assert_eq!(reply[7], (index + 1).to_string());
     let pose = shown_pose(harness.state()).expect("shown");
     let frame = session.robot.as_ref().expect("calibrated");
@@ -431,7 +431,7 @@ fn parts_are_numbered_once_robots_are_answered_and_keep_their_numbers() {
     fs::remove_dir_all(parts.join("back_door")).expect("removed");
     wait_until(&mut harness, |state| {
         let library = state.session.library.as_ref();
-        library.is_some_and(|library| library.place_of("fender") == Some(1))
+        library.is_some_and(|library| library.index_of("fender") == Some(1))
     });
     wait_until(&mut harness, |state| state.session.live.status.is_some());
     let reply = Robot::connect(at).ask("TRIGGER");

@@ -56,15 +56,15 @@ pub(super) fn read_each(source: Source<'_>) -> Result<Vec<NamedMesh>, FileError>
     if placed.len() < 2 {
         return Ok(Vec::new());
     }
-    let mut places = HashMap::new();
+    let mut indices = HashMap::new();
     let mut named: Vec<(String, Vec<PlacedMesh<'_>>)> = Vec::new();
     for mesh in placed {
         let next = named.len();
-        let place = *places.entry(mesh.name.clone()).or_insert(next);
-        if place == next {
+        let index = *indices.entry(mesh.name.clone()).or_insert(next);
+        if index == next {
             named.push((mesh.name.clone(), Vec::new()));
         }
-        named[place].1.push(mesh);
+        named[index].1.push(mesh);
     }
     let mut buffers = buffers_of(source, &document, blob);
     let mut num_read = 0;

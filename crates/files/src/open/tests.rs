@@ -66,7 +66,9 @@ fn the_meshes_of_a_file_are_listed_with_the_paths_that_open_them() {
     let two = "o Left door\nv 0 0 0\nv 1000 0 0\nv 0 500 0\nv 0 0 200\nf 1 2 3\nf 1 2 4\no Hood\nf 1 3 4\n";
     let (_folder, path) = file("car.obj", two.as_bytes());
     let with = |words: &str| PathBuf::from(format!("{}{words}", path.display()));
-    let listed = meshes_in(&with("#up=z")).unwrap().expect("several");
+    let OpenedFile::Several(listed) = open_each(&with("#up=z")).unwrap() else {
+        panic!("several");
+    };
     assert!(listed.opens_whole);
     let door = &listed.meshes[0];
     assert_eq!((door.name.as_str(), door.num_triangles()), ("Left door", 2));
@@ -90,11 +92,18 @@ fn the_meshes_of_a_file_are_listed_with_the_paths_that_open_them() {
         let (low, high) = mesh.bounds().expect("some");
         assert!(((high - low).x - 1000.0 * unit.metres()).abs() < 1e-3);
     }
-    assert!(meshes_in(&with("#Hood")).unwrap().is_none());
+    let is_one = |path: &Path| {
+        let opened = open_each(path).unwrap();
+        matches!(opened, OpenedFile::One(content) if content == open(path).unwrap())
+    };
+    assert!(is_one(&with("#Hood")));
     for other in [OBJ.as_bytes(), STL.as_bytes(), PCD.as_bytes()] {
         let (_folder, path) = file("one", other);
-        assert!(meshes_in(&path).unwrap().is_none());
+        assert!(is_one(&path));
     }
+    let (_folder, broken) = file("car.obj", two.replace("f 1 3 4", "f 1 3 9").as_bytes());
+    let [each, whole] = [open_each(&broken).unwrap_err(), open(&broken).unwrap_err()];
+    assert_eq!(each.to_string(), whole.to_string());
 }
 
 #[test]

@@ -69,7 +69,7 @@ pub(crate) fn no_more_frames(title: &str) -> Message {
 }
 
 /// Time to wait for a frame before checking for cancellation again.
-const TURN: Duration = Duration::from_millis(50);
+const POLL_INTERVAL: Duration = Duration::from_millis(50);
 /// How long the next file of a watched folder may take to be read, if one waits.
 const NEWER: Duration = Duration::from_millis(400);
 /// How long newer files are waited for: a camera may save without a pause.
@@ -216,7 +216,7 @@ fn wait(
         if is_cancelled() {
             return Err(NoFrame::Cancelled);
         }
-        match feed.wait(TURN) {
+        match feed.wait(POLL_INTERVAL) {
             Some(item) => return taken(item),
             None => match feed.status().state {
                 FeedState::Failed(error) | FeedState::Lost { error, .. } => {

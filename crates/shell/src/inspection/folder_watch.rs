@@ -17,9 +17,9 @@ use ui::{
 };
 
 /// Interval for checking cancellation.
-const TURN: Duration = Duration::from_millis(100);
-/// Number of turns between two checks of the folder.
-const NUM_TURNS: usize = 20;
+const POLL_INTERVAL: Duration = Duration::from_millis(100);
+/// Number of these between two checks of the folder.
+const NUM_POLLS: usize = 20;
 
 /// Watches one folder.
 #[derive(Debug)]
@@ -58,9 +58,9 @@ fn watch(folder: &Path, context: &TaskContext<()>) -> Result<(), TaskError> {
     // The folder may have changed since its content was loaded.
     context.latest(());
     loop {
-        for _ in 0..NUM_TURNS {
+        for _ in 0..NUM_POLLS {
             context.check()?;
-            thread::sleep(TURN);
+            thread::sleep(POLL_INTERVAL);
         }
         let now = entries(folder);
         if now != before {

@@ -185,13 +185,13 @@ impl LibraryView {
     }
 
     /// Title of the part at this index.
-    pub fn title(&self, place: usize) -> &str {
-        self.parts.get(place).map_or("", PartMeta::shown_title)
+    pub fn title(&self, index: usize) -> &str {
+        self.parts.get(index).map_or("", PartMeta::shown_title)
     }
 
     /// Title of the part enrolled under this name; the name itself if there is none.
     pub fn title_of<'a>(&'a self, name: &'a str) -> &'a str {
-        self.place_of(name).map_or(name, |place| self.title(place))
+        self.index_of(name).map_or(name, |index| self.title(index))
     }
 
     /// Titles that tell all entries apart, in the library's order: the title of the part, with the entry's name where the part has
@@ -216,7 +216,7 @@ impl LibraryView {
     }
 
     /// Index of the part with this name.
-    pub fn place_of(&self, name: &str) -> Option<usize> {
+    pub fn index_of(&self, name: &str) -> Option<usize> {
         self.parts
             .iter()
             .position(|part| part.name.as_str() == name)
@@ -544,7 +544,7 @@ mod tests {
     fn a_library_that_cannot_be_loaded_leaves_the_old_one_in_use() {
         let library_cache = LibraryCache::default();
         let before = library_cache.get();
-        assert_eq!(before.shown.place_of("fender"), Some(2));
+        assert_eq!(before.shown.index_of("fender"), Some(2));
         assert_eq!(before.shown.title(2), "Fender, left");
         library_cache
             .choose(Some("no/such/library".into()))
@@ -599,7 +599,7 @@ mod tests {
         assert!(refreshed(&library_cache).is_none());
         fs::rename(fender.join("part.toml"), fender.join("gone.toml")).expect("renamed");
         let changed = refreshed(&library_cache).expect("another");
-        assert_eq!(changed.shown.place_of("fender"), None);
+        assert_eq!(changed.shown.index_of("fender"), None);
         assert_eq!(changed.shown.damaged.len(), 1);
     }
 

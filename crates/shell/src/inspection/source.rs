@@ -512,7 +512,7 @@ impl ShotChoice {
     /// Returns the files for opening the scan again with the same shots dropped.
     pub fn files(&self) -> ScanFiles {
         let shots = self.set.shots.iter().enumerate();
-        let dropped = shots.filter(|(place, _)| self.dropped.contains(place));
+        let dropped = shots.filter(|(index, _)| self.dropped.contains(index));
         ScanFiles {
             dropped: dropped.map(|(_, shot)| shot.name.clone()).collect(),
             ..self.set.files.clone()

@@ -177,7 +177,7 @@ fn needs_engineer(action: &Action, has_pin: bool) -> bool {
         | Action::TakeEmptyCell
         | Action::ForgetEmptyCell
         | Action::UseFoundLibrary
-        | Action::EngineerIn(_)
+        | Action::AskEngineer(_)
         // Otherwise an order would not be compared with what hangs there.
         | Action::Expect(ExpectAction::CloseOrders)
         // Verdicts depend on the averaging of depth.
@@ -410,7 +410,7 @@ mod tests {
             Action::Chosen(DialogRequest::Library, "other".into()),
             Action::TakeEmptyCell,
             Action::GoTo(WorkspaceKind::Enrol),
-            Action::EngineerIn(WorkspaceKind::History),
+            Action::AskEngineer(WorkspaceKind::History),
         ];
         for action in held_back {
             state.roles.asked = None;
@@ -473,8 +473,8 @@ mod tests {
         assert_eq!(state.session.role, UserRole::Engineer);
         assert_eq!(state.session.workspace, WorkspaceKind::Compare);
         // Nothing is asked any more.
-        let engineer_in = apply_any(&mut state, Action::EngineerIn(WorkspaceKind::History));
-        assert!(matches!(engineer_in, Some(Action::EngineerIn(_))));
+        let granted = apply_any(&mut state, Action::AskEngineer(WorkspaceKind::History));
+        assert!(matches!(granted, Some(Action::AskEngineer(_))));
         // Compare is not for the operator.
         apply(&mut state, RoleAction::Lock);
         assert_eq!(state.session.workspace, WorkspaceKind::Inspect);

@@ -143,9 +143,9 @@ impl NotKnown {
 }
 
 /// Time between two looks at whether to end.
-const TURN: Duration = Duration::from_millis(100);
-/// Number of turns between two looks at the file.
-const NUM_TURNS: usize = 10;
+const POLL_INTERVAL: Duration = Duration::from_millis(100);
+/// Number of these between two looks at the file.
+const NUM_POLLS: usize = 10;
 
 /// Watches the file of the table in use.
 #[derive(Debug)]
@@ -196,9 +196,9 @@ fn watch(
             known = Some(content.clone());
             context.latest(content);
         }
-        for _ in 0..NUM_TURNS {
+        for _ in 0..NUM_POLLS {
             context.check()?;
-            thread::sleep(TURN);
+            thread::sleep(POLL_INTERVAL);
         }
     }
 }

@@ -86,7 +86,7 @@ pub(crate) fn icp(
             num_pairs: pairs.len(),
         });
         if e_m2 < params.target_e_m2 {
-            stopped = Stopped::BelowTarget;
+            stopped = Stopped::BelowThreshold;
             break;
         }
         // Eq. (13), from the source as it was given: errors of single steps do not add up.

@@ -72,9 +72,9 @@ pub(crate) fn icp_ga(
         // Algorithm 3, line 4
         let valley = search.descend(&pose, is_cancelled)?;
         // Lines 5 to 7
-        if search.is_below_target(&valley) {
+        if search.is_below_threshold(&valley) {
             best = valley;
-            stopped = Stopped::BelowTarget;
+            stopped = Stopped::BelowThreshold;
             break;
         }
         if valley.e_m2 < best.e_m2 * (1.0 - params.least_progress) {
@@ -212,7 +212,7 @@ impl<'a> Search<'a> {
         sum_sq / points.len() as f64
     }
 
-    fn is_below_target(&self, valley: &LocalMinimum) -> bool {
+    fn is_below_threshold(&self, valley: &LocalMinimum) -> bool {
         let target = self.params.target_e_m2;
         valley.e_m2 < target && self.e_m2(self.source, &valley.target_from_source) < target
     }

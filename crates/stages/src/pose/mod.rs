@@ -67,8 +67,9 @@ impl PoseMethod {
 pub enum Stopped {
     /// The last step moved the source by less than the tolerance.
     Converged,
-    /// E fell below the target of Algorithm 3.
-    BelowTarget,
+    /// E fell below the threshold of Algorithm 3.
+    #[serde(rename = "below_target")]
+    BelowThreshold,
     /// The allowed iterations were used up.
     IterationLimit,
     /// Some rounds of Algorithm 3 in a row found nothing better.
@@ -80,7 +81,7 @@ impl Stopped {
     pub fn name(self) -> &'static str {
         match self {
             Self::Converged => "converged",
-            Self::BelowTarget => "below_target",
+            Self::BelowThreshold => "below_target",
             Self::IterationLimit => "iteration_limit",
             Self::NoProgress => "no_progress",
         }

@@ -234,7 +234,7 @@ fn onto(source: &str, target: &str) -> String {
 
 /// Finds the enrolled part of this name, and its title.
 fn find<'a>(loaded: &'a LoadedLibrary, part: &str) -> Result<(&'a Reference, &'a str), UserError> {
-    let index = loaded.shown.place_of(part);
+    let index = loaded.shown.index_of(part);
     let found = index.and_then(|index| {
         let reference = loaded.library.references.get(index)?;
         Some((reference, loaded.shown.title(index)))

@@ -1,5 +1,5 @@
-//! E per iteration on a logarithmic scale: one curve per method, the goal of Algorithm 3, and the genetic searches. Also the
-//! name, colour and line style of each method.
+//! E per iteration on a logarithmic scale: one curve per method, the threshold of Algorithm 3, and the genetic searches. Also
+//! the name, colour and line style of each method.
 
 use egui::{Align2, Color32, Painter, Pos2, Rect, Stroke, Ui, Vec2, pos2};
 use egui_plot::{HLine, Line, LineStyle, PlotPoint, PlotTransform, Points, Span};
@@ -15,12 +15,12 @@ use ui::{
     theme::{Theme, font},
 };
 
-/// The goal of Algorithm 3, 1e-6 m², as a power of ten.
-const GOAL: f64 = -6.0;
+/// The threshold of Algorithm 3, 1e-6 m², as a power of ten.
+const THRESHOLD: f64 = -6.0;
 /// Opacity of the line that continues a curve beyond its end.
 const HELD: f32 = 0.5;
 
-/// Draws axes, goal, searches, curves and the scrubber at `iteration`.
+/// Draws axes, threshold, searches, curves and the scrubber at `iteration`.
 pub(super) fn show(
     ui: &mut Ui,
     rect: Rect,
@@ -30,9 +30,9 @@ pub(super) fn show(
     let theme = Theme::of(ui);
     let [low, high] = range_of(shown.tracks().flat_map(|(_, track)| &track.log_e));
     let log_e = shown.tracks().flat_map(|(_, track)| &track.log_e);
-    let has_goal = is_goal_in_reach(shown.pair.truth.is_some(), log_e);
-    let (low, high) = if has_goal {
-        (low.min(GOAL).floor(), high.max(GOAL + 1.0).ceil())
+    let has_threshold = is_threshold_in_reach(shown.pair.truth.is_some(), log_e);
+    let (low, high) = if has_threshold {
+        (low.min(THRESHOLD).floor(), high.max(THRESHOLD + 1.0).ceil())
     } else {
         (low.floor(), high.ceil().max(low.floor() + 1.0))
     };
@@ -51,9 +51,9 @@ pub(super) fn show(
             let stretch = search.start as f64..=search.end as f64;
             plot.span(Span::new("", stretch).fill(theme.control));
         }
-        if has_goal {
-            let goal = HLine::new("", GOAL).color(theme.accepted).width(1.4);
-            plot.hline(goal.style(LineStyle::Dashed { length: 6.0 }));
+        if has_threshold {
+            let threshold = HLine::new("", THRESHOLD).color(theme.accepted).width(1.4);
+            plot.hline(threshold.style(LineStyle::Dashed { length: 6.0 }));
         }
         for (run, track) in shown.tracks() {
             let colour = method_colour(run.method, theme);
@@ -68,8 +68,8 @@ pub(super) fn show(
     });
     let painter = ui.painter();
     let searches = name_the_searches(painter, &drawn, shown, theme);
-    let goal = has_goal.then(|| name_the_goal(painter, &drawn, shown, theme));
-    let mut taken: Vec<Rect> = goal.into_iter().chain(searches).collect();
+    let threshold = has_threshold.then(|| name_the_threshold(painter, &drawn, shown, theme));
+    let mut taken: Vec<Rect> = threshold.into_iter().chain(searches).collect();
     let area = *drawn.frame();
     for (run, track) in shown.tracks() {
         let end = drawn.position_from_point(&end_of(track).into());
@@ -83,9 +83,9 @@ pub(super) fn show(
     drawn
 }
 
-/// True if E can fall below the goal: the clouds are exact copies, or it has. The noise of a camera keeps E above it.
-fn is_goal_in_reach<'a>(are_copies: bool, mut log_e: impl Iterator<Item = &'a f32>) -> bool {
-    are_copies || log_e.any(|e| f64::from(*e) < GOAL)
+/// True if E can fall below the threshold: the clouds are exact copies, or it has. The noise of a camera keeps E above it.
+fn is_threshold_in_reach<'a>(are_copies: bool, mut log_e: impl Iterator<Item = &'a f32>) -> bool {
+    are_copies || log_e.any(|e| f64::from(*e) < THRESHOLD)
 }
 
 /// End of a track's curve, plot coordinates.
@@ -126,14 +126,14 @@ fn moved_inside(label: Rect, area: Rect) -> Rect {
     label.translate(Vec2::new(left - label.left(), 0.0))
 }
 
-/// Labels the goal where no curve runs through the label: above its line at the right, middle or left, else below it.
-fn name_the_goal(
+/// Labels the threshold where no curve runs through the label: above its line at the right, middle or left, else below it.
+fn name_the_threshold(
     painter: &Painter,
     drawn: &PlotTransform,
     shown: &MethodComparison,
     theme: &Theme,
 ) -> Rect {
-    let (area, goal) = (*drawn.frame(), drawn.position_from_point_y(GOAL));
+    let (area, threshold) = (*drawn.frame(), drawn.position_from_point_y(THRESHOLD));
     let curves = shown.tracks().map(|(_, track)| -> Vec<Pos2> {
         let points = track.log_e.iter().enumerate();
         let at = |(index, e): (usize, &f32)| PlotPoint::new(index as f64, *e);
@@ -142,13 +142,13 @@ fn name_the_goal(
             .collect()
     });
     let curves: Vec<Vec<Pos2>> = curves.collect();
-    let text = text!("align-goal");
+    let text = text!("align-threshold");
     let galley = painter.layout_no_wrap(text, font::small(), theme.accepted);
     let size = galley.size();
     let free = area.width() - size.x - 12.0;
     let place = |(share, lift): (f32, f32)| {
         let x = area.left() + 6.0 + share * free;
-        Rect::from_min_size(pos2(x, goal + lift), size)
+        Rect::from_min_size(pos2(x, threshold + lift), size)
     };
     let (above, below) = (-size.y - 2.0, 3.0);
     let shares = [1.0, 0.5, 0.0];
@@ -241,9 +241,9 @@ mod tests {
     #[test]
     fn the_goal_is_shown_where_it_can_be_reached() {
         let noisy = [-1.5, -4.9, -5.2];
-        assert!(!is_goal_in_reach(false, noisy.iter()));
-        assert!(is_goal_in_reach(true, noisy.iter()));
-        assert!(is_goal_in_reach(false, [-3.0, -6.1].iter()));
+        assert!(!is_threshold_in_reach(false, noisy.iter()));
+        assert!(is_threshold_in_reach(true, noisy.iter()));
+        assert!(is_threshold_in_reach(false, [-3.0, -6.1].iter()));
     }
 
     #[test]

@@ -124,7 +124,7 @@ impl Track {
             .true_error
             .is_some_and(|error| error.rotation.degrees() > 5.0);
         match self.stopped {
-            Stopped::BelowTarget => [
+            Stopped::BelowThreshold => [
                 text!("align-ended-below-threshold", count = num),
                 text!("align-ended-below-threshold-says"),
             ],
@@ -290,7 +290,7 @@ mod tests {
         };
         for (stopped, true_error, expected) in [
             (
-                Stopped::BelowTarget,
+                Stopped::BelowThreshold,
                 None,
                 "Threshold reached: E < 1e-6 m², 57 iterations",
             ),

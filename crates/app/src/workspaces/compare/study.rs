@@ -196,7 +196,7 @@ pub fn study(
     let against = against(request, truth.as_ref(), &inspection, library);
     let titles = shown.reference_titles();
     let reference_title = |name: &str| {
-        let index = shown.place_of(name)?;
+        let index = shown.index_of(name)?;
         titles.get(index).cloned()
     };
     let mut study = CaseStudy {

@@ -28,7 +28,7 @@ pub(super) fn ui(
 ) {
     let theme = Theme::of(ui);
     let library = session.library.as_deref();
-    let index = library.and_then(|library| library.place_of(open.name.as_str()));
+    let index = library.and_then(|library| library.index_of(open.name.as_str()));
     let part = library
         .zip(index)
         .and_then(|(library, index)| library.parts.get(index));

@@ -97,7 +97,7 @@ pub(super) fn change(
         });
     }
     if let LibraryChange::Save(_, words, _) = &change
-        && loaded.shown.place_of(words.name.as_str()).is_none()
+        && loaded.shown.index_of(words.name.as_str()).is_none()
         && folder.path().join(words.name.as_str()).exists()
     {
         let reloaded = library_cache.reload();

@@ -57,7 +57,7 @@ impl Draft {
         let of = of.map_or(name, PartName::as_str);
         let part_of = |entry: &str| {
             let library = library?;
-            Some(library.parts.get(library.place_of(entry)?)?.part_name())
+            Some(library.parts.get(library.index_of(entry)?)?.part_name())
         };
         let mut all = self.ready()?.likenesses.iter();
         all.find(|likeness| {
@@ -176,7 +176,7 @@ impl Form {
 
     /// Title of the enrolled part of this name.
     pub fn namesake<'a>(&self, library: &'a LibraryView) -> Option<&'a str> {
-        let index = library.place_of(&self.name)?;
+        let index = library.index_of(&self.name)?;
         Some(library.title(index))
     }
 }
@@ -201,7 +201,7 @@ fn proposed_name(
         reference_of.is_some_and(|of| of.as_str() == name)
             || library.is_some_and(|library| {
                 let mut damaged = library.damaged.iter();
-                library.place_of(name).is_some() || damaged.any(|damaged| damaged.entry == name)
+                library.index_of(name).is_some() || damaged.any(|damaged| damaged.entry == name)
             })
     };
     // Cut off so that there is room for the number.

@@ -35,6 +35,8 @@ pub struct ListedMesh {
     pub name: String,
     /// Width, height and depth, in the unit of the file.
     pub sides: [f64; 3],
+    /// The longest of them.
+    longest_side: f32,
     /// Number of triangles.
     pub num_triangles: usize,
     /// Why it cannot be enrolled, as far as that is known without trying.
@@ -65,13 +67,10 @@ impl ListedMesh {
             sides: named
                 .size()
                 .map_or([0.0; 3], |sides| sides.cast::<f64>().into()),
+            longest_side: named.longest_side(),
             num_triangles,
             problem,
         }
-    }
-
-    fn longest_side(&self) -> f64 {
-        self.sides.into_iter().fold(0.0, f64::max)
     }
 }
 
@@ -340,7 +339,7 @@ impl MeshList {
         let meshes = &self.listing.meshes;
         match self.order {
             MeshOrder::Size => self.sorted.sort_by(|a, b| {
-                let [a, b] = [a, b].map(|index| meshes[*index].longest_side());
+                let [a, b] = [a, b].map(|index| meshes[*index].longest_side);
                 b.total_cmp(&a)
             }),
             MeshOrder::Name => self
@@ -424,9 +423,9 @@ mod tests {
         }
         std::fs::write(&path, text).expect("written");
         let with_unit = PathBuf::from(format!("{}#units=mm", path.display()));
-        let file = files::meshes_in(&with_unit)
-            .expect("read")
-            .expect("several");
+        let files::OpenedFile::Several(file) = files::open_each(&with_unit).expect("read") else {
+            panic!("several");
+        };
         (MeshList::new(Arc::new(MeshListing::of(file))), folder)
     }
 

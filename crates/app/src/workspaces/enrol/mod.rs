@@ -351,7 +351,7 @@ fn empty(ui: &mut Ui, enrol: &EnrolState, session: &Session, actions: &mut Vec<E
             // What was just saved is not offered again, unless it was removed.
             let is_saved = saved.is_some_and(|saved| {
                 let is_enrolled =
-                    library.is_some_and(|all| all.place_of(saved.part.as_str()).is_some());
+                    library.is_some_and(|all| all.index_of(saved.part.as_str()).is_some());
                 is_enrolled && saved.matter.is_inspected_in(inspected)
             });
             let (text, label, action) = if is_saved {

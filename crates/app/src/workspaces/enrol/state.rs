@@ -157,7 +157,7 @@ impl EnrolState {
             Some(draft) => &draft.form.name,
             None => self.replacing.as_ref()?.as_str(),
         };
-        library.place_of(name).map(|index| library.title(index))
+        library.index_of(name).map(|index| library.title(index))
     }
 
     /// True while another draft is being prepared.
@@ -208,7 +208,7 @@ impl EnrolState {
     pub fn apply(&mut self, action: EnrolAction, cx: &mut ShellContext<'_>) {
         if cx.session.role == UserRole::Operator {
             self.held = Some(action);
-            cx.send(Action::EngineerIn(WorkspaceKind::Enrol));
+            cx.send(Action::AskEngineer(WorkspaceKind::Enrol));
             return;
         }
         let library = cx.session.library.as_deref();
@@ -510,7 +510,7 @@ impl EnrolState {
 
 pub(super) fn form_of(name: &PartName, library: Option<&LibraryView>) -> Option<Form> {
     let library = library?;
-    let part = library.parts.get(library.place_of(name.as_str())?)?;
+    let part = library.parts.get(library.index_of(name.as_str())?)?;
     Some(Form::of(part))
 }
 

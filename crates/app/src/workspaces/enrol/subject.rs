@@ -1,6 +1,6 @@
 //! The input of enrolling: a captured scene, a cloud, a mesh or a scan, cut into segments that are kept or dropped.
 
-use std::sync::Arc;
+use std::{path::Path, sync::Arc};
 
 use serde::{Deserialize, Serialize};
 
@@ -90,13 +90,22 @@ impl EnrolInput {
             let (scene, origin) = (captured.scene, captured.origin);
             return Ok(Ok(Self::of_scene(scene, origin, usual, params)));
         };
-        let opened = files::open(path).map_err(CaptureError::from)?;
-        let warnings = opened.warnings();
+        let content = files::open(path).map_err(CaptureError::from)?;
+        Ok(Self::of_file(content, path, params))
+    }
+
+    /// Segments the content of a file.
+    pub(super) fn of_file(
+        content: FileContent,
+        path: &Path,
+        params: &EnrolParams,
+    ) -> Result<Self, EnrolError> {
+        let warnings = content.warnings();
         let origin = Origin::File {
-            path: path.clone(),
-            is_simulated: opened.is_simulated(),
+            path: path.to_owned(),
+            is_simulated: content.is_simulated(),
         };
-        let read = match opened {
+        let read = match content {
             FileContent::Mesh(mesh) => Self::of_mesh(mesh, origin, params),
             FileContent::Depth(frame) => {
                 let scene = Arc::new(scene_from_frame(&frame));
@@ -117,10 +126,10 @@ impl EnrolInput {
                 Ok(Self::of_scene(Arc::new(scene), origin, usual, params))
             }
         };
-        Ok(read.map(|subject| Self {
+        read.map(|subject| Self {
             warnings,
             ..subject
-        }))
+        })
     }
 
     fn of_scene(

@@ -9,10 +9,10 @@ use super::{
     selection::{Corrections, Selection},
     subject::{EnrolInput, EnrolInputKind, InitialSelection},
 };
+use capture::CaptureError;
 use files::{
-    MeshFile,
+    MeshFile, OpenedFile,
     import::{ImportOptions, LengthUnit},
-    meshes_in,
 };
 use inspection::{
     library::{
@@ -24,7 +24,7 @@ use inspection::{
 use shell::inspection::{
     library_cache::LibraryCache,
     scan::{Steps, Then, fuse},
-    source::{ScanOrder, ScanRequest, SceneSource},
+    source::{ScanOrder, ScanRequest, SceneError, SceneSource},
 };
 use stages::segment::SegmentedPart;
 use ui::{
@@ -64,12 +64,15 @@ pub(super) fn open_file(
     library_cache: &LibraryCache,
     context: &TaskContext<DraftEvent>,
 ) -> Result<DraftEvent, TaskError> {
-    // Taking it says why a file cannot be read, and names the meshes of one too large to list.
-    if let Ok(Some(file)) = meshes_in(path) {
-        return Ok(DraftEvent::Several(Arc::new(MeshListing::of(file))));
+    let opened = files::open_each(path).map_err(CaptureError::from);
+    match opened.map_err(SceneError::from)? {
+        OpenedFile::Several(file) => Ok(DraftEvent::Several(Arc::new(MeshListing::of(file)))),
+        OpenedFile::One(content) => {
+            let params = params_of(recipe);
+            let read = EnrolInput::of_file(content, path, &params);
+            take_read(read, None, &params, library_cache, context)
+        }
     }
-    let source = SceneSource::File(path.to_owned());
-    take_scene(&source, recipe, library_cache, context)
 }
 
 /// Gets a mesh that was chosen, and prepares the part.
@@ -136,8 +139,18 @@ fn read_and_take(
     let params = params_of(recipe);
     let is_cancelled = || context.is_cancelled();
     let read = EnrolInput::read(source, &params, library_cache.camera(), &is_cancelled)?;
+    take_read(read, chosen, &params, library_cache, context)
+}
+
+fn take_read(
+    read: Result<EnrolInput, EnrolError>,
+    chosen: Option<ChosenMesh>,
+    params: &EnrolParams,
+    library_cache: &LibraryCache,
+    context: &TaskContext<DraftEvent>,
+) -> Result<DraftEvent, TaskError> {
     let subject = read.map_err(|error| UserError::from(what_and_advice(&error)))?;
-    take(subject, chosen, &params, library_cache, context)
+    take(subject, chosen, params, library_cache, context)
 }
 
 /// Gets a scene that was taken before, read in the same way.

@@ -24,7 +24,7 @@ impl HistoryState {
     pub fn apply(&mut self, action: HistoryAction, cx: &mut ShellContext<'_>) {
         if action.needs_engineer() && cx.session.role == UserRole::Operator {
             self.held = Some(action);
-            cx.send(Action::EngineerIn(WorkspaceKind::History));
+            cx.send(Action::AskEngineer(WorkspaceKind::History));
             return;
         }
         match action {

@@ -165,7 +165,7 @@ fn parts(ui: &mut Ui, history: &HistoryState, session: &Session, filter: &mut Li
     });
     let is_enrolled = |name: &str| {
         let library = session.library.as_ref();
-        library.is_some_and(|library| library.place_of(name).is_some())
+        library.is_some_and(|library| library.index_of(name).is_some())
     };
     // Those of another library, or removed from this one.
     let others = history.parts.iter().flatten();

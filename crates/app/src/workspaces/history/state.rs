@@ -425,7 +425,7 @@ impl HistoryState {
                 let former_titles = RefCell::new(BTreeMap::new());
                 let title_of = |name: &str| {
                     let library = library.as_deref();
-                    let library = library.filter(|library| library.place_of(name).is_some());
+                    let library = library.filter(|library| library.index_of(name).is_some());
                     if let Some(library) = library {
                         return library.title_of(name).to_owned();
                     }

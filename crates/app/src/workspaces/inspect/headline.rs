@@ -103,8 +103,7 @@ impl Headline {
                     Some(now) => now,
                 };
                 let headline = Self::not_yet(inspected, stillness, is_moving);
-                let rate = session.live.status.as_ref().filter(|_| is_moving);
-                let Some(rate) = rate.and_then(|status| status.held_up_by) else {
+                let Some(rate) = status.and_then(|status| status.held_up_by) else {
                     return headline;
                 };
                 let part = headline.nearest.clone().unwrap_or_default();
@@ -358,7 +357,10 @@ mod tests {
             num_frames: 30,
         };
         let (why, advice) = headline(Some(slow));
-        assert!(why.ends_with("too slow: 2 of 30 frames inspected"), "{why}");
+        assert!(
+            why.ends_with("too slow (2 of 30 frames inspected)"),
+            "{why}"
+        );
         assert!(advice.contains("max_parts"), "{advice}");
         let (why, _) = headline(None);
         assert!(!why.contains("slow"), "{why}");

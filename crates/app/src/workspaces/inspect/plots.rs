@@ -55,8 +55,8 @@ impl PlotDetail {
     }
 }
 
-/// The paper's goal for E, 1e-6 m², as a power of ten.
-const GOAL: f64 = -6.0;
+/// The paper's threshold for E, 1e-6 m², as a power of ten.
+const THRESHOLD: f64 = -6.0;
 
 impl Pictures<'_> {
     /// Draws the picture of a stage into a rectangle.
@@ -186,7 +186,7 @@ impl Pictures<'_> {
         };
         let theme = self.theme;
         let [low, high] = range_of(log_e);
-        let up = [low.min(GOAL).floor(), high.max(GOAL + 1.0).ceil()];
+        let up = [low.min(THRESHOLD).floor(), high.max(THRESHOLD + 1.0).ceil()];
         let is_large = detail == PlotDetail::Large;
         let rms = self.session.units.length(rms_m);
         let title = text!("inspect-ended-at", part = &candidate.title, rms = rms);
@@ -207,15 +207,15 @@ impl Pictures<'_> {
         };
         axes.show(ui, rect, |plot| {
             let colour = theme.second_series;
-            let goal = HLine::new("", GOAL).color(colour).width(1.4);
-            plot.hline(goal.style(LineStyle::Dashed { length: 5.0 }));
+            let threshold = HLine::new("", THRESHOLD).color(colour).width(1.4);
+            plot.hline(threshold.style(LineStyle::Dashed { length: 5.0 }));
             plot.line(curve(log_e, theme.first_series));
             let end = log_e.last().map(|e| vec![[last, f64::from(*e)]]);
             let end = Points::new("", end.unwrap_or_default()).radius(3.0);
             plot.points(end.color(theme.first_series));
             if is_large {
-                let text = RichText::new(text!("inspect-papers-goal")).small();
-                let above = GOAL + 0.01 * (up[1] - up[0]);
+                let text = RichText::new(text!("inspect-papers-threshold")).small();
+                let above = THRESHOLD + 0.01 * (up[1] - up[0]);
                 let at = PlotPoint::new(last.max(1.0), above);
                 let text = Text::new("", at, text).color(colour);
                 plot.text(text.anchor(Align2::RIGHT_BOTTOM));

@@ -1,6 +1,9 @@
 //! The page on which an operator says what a part really is: the enrolled parts as tiles that a gloved hand hits.
 
-use std::{collections::BTreeSet, sync::Arc};
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    sync::Arc,
+};
 
 use egui::{
     Align, Button, CentralPanel, Frame, Layout, Margin, Rect, Response, RichText, Role, ScrollArea,
@@ -49,10 +52,12 @@ pub struct WrongPartPage {
     /// Its true label so far.
     former: Option<Truth>,
     library: Arc<LibraryView>,
-    /// The enrolled parts, in the order of the tiles.
-    parts: Vec<PartName>,
+    /// The enrolled parts, in the order of the tiles: an index of each in the library.
+    parts: Vec<usize>,
     /// What is searched for.
     find: String,
+    /// Those of `parts` that have it in title or name.
+    found: Vec<usize>,
 }
 
 impl WrongPartPage {
@@ -67,13 +72,15 @@ impl WrongPartPage {
         let at = summary.at.to_zoned(jiff::tz::TimeZone::system());
         let mut labelled = session.shift.labelled.iter();
         let former = labelled.find(|(known, _)| known == part);
+        let parts = in_order(inspected);
         Some(Self {
             part: part.clone(),
             named: [title, at.strftime("%H:%M").to_string()],
             accepted: summary.part.clone().filter(|_| is_accepted),
             former: former.map(|(_, label)| label.clone()),
             library: Arc::clone(&inspected.library),
-            parts: in_order(inspected),
+            found: parts.clone(),
+            parts,
             find: String::new(),
         })
     }
@@ -123,9 +130,11 @@ impl WrongPartPage {
             }
             if self.parts.len() > MANY {
                 let label = text!("operator-find-part");
-                let field = line_edit(&mut self.find, label.clone(), 220.0);
-                ui.add(field)
-                    .widget_info(|| WidgetInfo::labeled(Role::TextInput, true, &label));
+                let field = ui.add(line_edit(&mut self.find, label.clone(), 220.0));
+                field.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, &label));
+                if field.changed() {
+                    self.search();
+                }
             }
             // A layout without a size would take all the height that is free.
             let size = vec2(ui.available_width(), HEAD);
@@ -141,28 +150,42 @@ impl WrongPartPage {
         });
     }
 
+    /// Finds the parts that have what is searched for in title or name.
+    fn search(&mut self) {
+        let wanted = self.find.trim().to_lowercase();
+        let has_it = |index: &usize| {
+            let part = self.library.parts.get(*index);
+            part.is_some_and(|part| {
+                part.shown_title().to_lowercase().contains(&wanted)
+                    || part.part_name().as_str().contains(&wanted)
+            })
+        };
+        self.found = self.parts.iter().copied().filter(has_it).collect();
+    }
+
     fn tiles(&self, ui: &mut Ui, thumbnails: &Thumbnails, actions: &mut Vec<InspectAction>) {
+        if self.found.is_empty() {
+            ui.weak(text!("operator-no-such-part"));
+            return;
+        }
         // The scroll bar is beside the tiles, not over them.
         ui.spacing_mut().scroll = ScrollStyle::solid();
-        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-            ui.spacing_mut().item_spacing = Vec2::splat(space::MEDIUM);
-            let columns = (ui.available_width() + space::MEDIUM) / (TILE[0] + space::MEDIUM);
-            let columns = columns.max(1.0) as usize;
-            let wanted = self.find.trim().to_lowercase();
-            let found = self.parts.iter().filter(|name| {
-                let title = self.library.title_of(name.as_str()).to_lowercase();
-                title.contains(&wanted) || name.as_str().contains(&wanted)
-            });
-            let found: Vec<&PartName> = found.collect();
-            if found.is_empty() {
-                ui.weak(text!("operator-no-such-part"));
-            }
-            for row in found.chunks(columns) {
+        ui.spacing_mut().item_spacing = Vec2::splat(space::MEDIUM);
+        let width = ui.available_width() - ui.spacing().scroll.allocated_width();
+        let columns = (width + space::MEDIUM) / (TILE[0] + space::MEDIUM);
+        let columns = columns.max(1.0) as usize;
+        let rows: Vec<&[usize]> = self.found.chunks(columns).collect();
+        let area = ScrollArea::vertical().auto_shrink(false);
+        area.show_rows(ui, TILE[1], rows.len(), |ui, visible| {
+            for row in rows.get(visible).unwrap_or_default() {
                 ui.horizontal(|ui| {
-                    for name in row {
-                        if self.tile(ui, name.as_str(), thumbnails).clicked() {
-                            let label = Truth::Part(name.as_str().to_owned());
-                            actions.push(InspectAction::ActualPart(label));
+                    for index in *row {
+                        let Some(part) = self.library.parts.get(*index) else {
+                            continue;
+                        };
+                        if self.tile(ui, *index, part, thumbnails).clicked() {
+                            let name = part.part_name().as_str().to_owned();
+                            actions.push(InspectAction::ActualPart(Truth::Part(name)));
                         }
                     }
                 });
@@ -170,10 +193,19 @@ impl WrongPartPage {
         });
     }
 
-    fn tile(&self, ui: &mut Ui, name: &str, thumbnails: &Thumbnails) -> Response {
+    fn tile(
+        &self,
+        ui: &mut Ui,
+        index: usize,
+        part: &PartMeta,
+        thumbnails: &Thumbnails,
+    ) -> Response {
         let theme = Theme::of(ui);
-        let (rect, response) = ui.allocate_exact_size(TILE.into(), Sense::click());
-        let title = self.library.title_of(name);
+        let (rect, _) = ui.allocate_exact_size(TILE.into(), Sense::hover());
+        // The focus stays with the part when other rows become visible.
+        let id = ui.scope_id().with(("part", index));
+        let response = ui.interact(rect, id, Sense::click());
+        let (name, title) = (part.part_name().as_str(), part.shown_title());
         let is_accepted = self.accepted.as_deref() == Some(name);
         let is_former = self.former.as_ref().and_then(Truth::part) == Some(name);
         let note = match (is_accepted, is_former) {
@@ -196,8 +228,7 @@ impl WrongPartPage {
         painter.rect(rect, ROUNDING, fill, edge, StrokeKind::Inside);
         let inner = rect.shrink(space::SMALL);
         let picture = Rect::from_min_size(inner.min, vec2(inner.width(), PICTURE));
-        let index = self.library.place_of(name);
-        if let Some(texture) = index.and_then(|index| thumbnails.of_part(index)) {
+        if let Some(texture) = thumbnails.of_part(index) {
             paint_fitted(&painter, texture, picture);
         }
         let fonts = [font::body_strong(), font::small()];
@@ -224,25 +255,30 @@ impl WrongPartPage {
     }
 }
 
-/// The enrolled parts: the likeliest of the frame first, then by title.
-fn in_order(inspected: &Inspected) -> Vec<PartName> {
+/// An index of each enrolled part: the likeliest of the frame first, then by title.
+fn in_order(inspected: &Inspected) -> Vec<usize> {
     let library = &inspected.library;
+    // A part may have several references, of which its own has its title.
+    let mut index_of: BTreeMap<&PartName, usize> = BTreeMap::new();
+    for (index, reference) in library.parts.iter().enumerate() {
+        let known = index_of.entry(reference.part_name()).or_insert(index);
+        if reference.reference_of().is_none() {
+            *known = index;
+        }
+    }
     let examined = inspected.inspection.ranking.entries.iter();
     let examined = examined.filter(|entry| entry.is_examined);
     let likeliest = examined.filter_map(|entry| {
         let reference = library.parts.get(entry.reference)?;
-        Some(reference.part_name())
+        index_of.get(reference.part_name()).copied()
     });
-    let mut others: Vec<&PartName> = library.parts.iter().map(PartMeta::part_name).collect();
-    others.sort_by_cached_key(|name| library.title_of(name.as_str()).to_lowercase());
-    // A part may have several references.
     let mut seen = BTreeSet::new();
-    let mut all: Vec<PartName> = Vec::new();
-    for name in likeliest.take(NUM_LIKELIEST).chain(others) {
-        if seen.insert(name) {
-            all.push(name.clone());
-        }
-    }
+    let likeliest = likeliest.filter(|index| seen.insert(*index));
+    let mut all: Vec<usize> = likeliest.take(NUM_LIKELIEST).collect();
+    let mut others: Vec<usize> = index_of.into_values().collect();
+    others.retain(|index| !all.contains(index));
+    others.sort_by_cached_key(|index| library.title(*index).to_lowercase());
+    all.extend(others);
     all
 }
 
@@ -255,7 +291,7 @@ fn large_button(ui: &mut Ui, text: &str) -> Response {
 
 #[cfg(test)]
 mod tests {
-    use egui::{Pos2, RawInput, Shape};
+    use egui::{FullOutput, Pos2, RawInput, Shape};
 
     use super::*;
     use shell::{
@@ -263,40 +299,66 @@ mod tests {
         session::Shown,
         workspace::TestShell,
     };
+    use stages::confirm::ConfirmedMatch;
     use ui::theme::ThemeChoice;
 
     /// The page about a part that was inspected with a library of this many parts.
     fn page(num: usize) -> WrongPartPage {
+        let parts: Vec<String> = (0..num).map(|index| format!("part-{index:02}")).collect();
+        page_of(parts.iter().map(|name| (name.as_str(), None)), None)
+    }
+
+    /// The page about a part that was inspected with a library of these references and the parts that they are of, and which of
+    /// them were examined, the best first; `None` for the ranking of the shipped parts.
+    fn page_of<'a>(
+        references: impl Iterator<Item = (&'a str, Option<&'a str>)>,
+        examined: Option<&[usize]>,
+    ) -> WrongPartPage {
         let mut inspected = inspected_cell(CellChoice::InTurn, 1);
         let known = Arc::clone(&inspected.library);
-        let parts = known.parts.iter().cycle().take(num).enumerate();
-        let parts = parts.map(|(index, part)| PartMeta {
-            name: PartName::new(&format!("part-{index:02}")).expect("a name"),
-            title: format!("Part {index:02}"),
-            part: None,
-            ..part.clone()
+        let named = |name: &str| PartName::new(name).expect("a name");
+        let references = references.map(|(name, of)| PartMeta {
+            name: named(name),
+            title: name.replace("part-", "Part "),
+            part: of.map(named),
+            ..known.parts[0].clone()
         });
         inspected.library = Arc::new(LibraryView {
-            parts: parts.collect(),
+            parts: references.collect(),
             ..LibraryView::default()
         });
+        if let Some(examined) = examined {
+            let first = inspected.inspection.ranking.entries[0].clone();
+            let examined = examined.iter().map(|reference| ConfirmedMatch {
+                reference: *reference,
+                is_examined: true,
+                ..first.clone()
+            });
+            inspected.inspection.ranking.entries = examined.collect();
+        }
         let part = inspected.hung().clone();
         let mut shell = TestShell::default();
         shell.session.shown = Some(Shown::new(1, Arc::new(inspected)));
         WrongPartPage::about(&part, &shell.session).expect("it is shown")
     }
 
-    fn texts(page: &mut WrongPartPage) -> Vec<String> {
+    /// Draws the page in a small window.
+    fn draw(page: &mut WrongPartPage) -> FullOutput {
         let ctx = egui::Context::default();
         Theme::install_fonts(&ctx);
         Theme::install(ThemeChoice::default(), &ctx);
+        ctx.enable_accesskit();
         let input = RawInput {
             screen_rect: Some(Rect::from_min_size(Pos2::ZERO, vec2(1024.0, 600.0))),
             ..RawInput::default()
         };
-        let output = ctx.run_ui(input, |ui| {
+        ctx.run_ui(input, |ui| {
             page.ui(ui, &Thumbnails::default(), &mut Vec::new());
-        });
+        })
+    }
+
+    fn texts(page: &mut WrongPartPage) -> Vec<String> {
+        let output = draw(page);
         let texts = output.shapes.iter().filter_map(|drawn| match &drawn.shape {
             Shape::Text(text) => Some(text.galley.text().to_owned()),
             _ => None,
@@ -304,6 +366,51 @@ mod tests {
         let texts = texts.collect();
         output.drop_without_applying_deltas();
         texts
+    }
+
+    /// The titles of the tiles that are laid out, in their order.
+    fn tiles(page: &mut WrongPartPage) -> Vec<String> {
+        let output = draw(page);
+        let update = output.platform_output.accesskit_update.as_ref();
+        let nodes = update.expect("it is enabled").nodes.iter();
+        let titles = nodes.filter_map(|(_, node)| node.label()?.strip_prefix("Actual part: "));
+        let titles = titles.map(str::to_owned).collect();
+        output.drop_without_applying_deltas();
+        titles
+    }
+
+    #[test]
+    fn of_many_parts_only_the_tiles_in_sight_are_laid_out() {
+        let mut many = page(1000);
+        let drawn = tiles(&mut many);
+        assert!((10..=25).contains(&drawn.len()), "{drawn:?}");
+        many.find = "part 99".into();
+        many.search();
+        let drawn = tiles(&mut many);
+        assert!(drawn.contains(&"Part 999".to_owned()), "{drawn:?}");
+        assert_eq!(drawn.len(), 11);
+    }
+
+    #[test]
+    fn a_part_of_several_references_has_one_tile_and_leaves_room_for_other_likely_parts() {
+        let references = [
+            ("door-2", Some("door")),
+            ("door-3", Some("door")),
+            ("door", None),
+            ("fender", None),
+            ("bonnet", None),
+            ("hinge", None),
+            ("grille", None),
+            ("apron", None),
+        ];
+        let examined = [1, 3, 0, 2, 6, 5, 4, 7];
+        let page = page_of(references.into_iter(), Some(&examined));
+        let titles = page.parts.iter().map(|index| page.library.title(*index));
+        let titles: Vec<&str> = titles.collect();
+        assert_eq!(
+            titles,
+            ["door", "fender", "grille", "hinge", "bonnet", "apron"]
+        );
     }
 
     #[test]
@@ -317,12 +424,14 @@ mod tests {
             "{drawn:?}"
         );
         many.find = " part 07".into();
+        many.search();
         let drawn = texts(&mut many);
         assert!(
             has(&drawn, "Part 07") && !has(&drawn, "Part 00"),
             "{drawn:?}"
         );
         many.find = "door".into();
+        many.search();
         assert!(has(&texts(&mut many), "No part has this name"));
     }
 }

@@ -217,7 +217,7 @@ impl PaintState {
     /// The path stored with the part, if any.
     pub fn stored<'a>(&self, session: &'a Session) -> Option<&'a SprayPath> {
         let library = session.library.as_ref()?;
-        let index = library.place_of(self.part(session)?.as_str())?;
+        let index = library.index_of(self.part(session)?.as_str())?;
         Some(&library.spray_paths.get(index)?.as_ref()?.path)
     }
 
@@ -311,7 +311,7 @@ impl PaintState {
         let Some(planned) = self.planned.as_ref().filter(|_| !self.is_old(cx.session)) else {
             return;
         };
-        let (part, path) = (planned.part.clone(), planned.path.clone());
+        let (part, path) = (planned.part.clone(), SprayPath::clone(&planned.path));
         self.store(None, part, Some(path), cx);
     }
 

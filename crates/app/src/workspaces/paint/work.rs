@@ -49,11 +49,11 @@ pub struct Planned {
     /// Name of the part.
     pub part: PartName,
     /// The surface to paint.
-    pub surface: PaintSurface,
+    pub surface: Arc<PaintSurface>,
     /// The spray path.
-    pub path: SprayPath,
+    pub path: Arc<SprayPath>,
     /// The simulated film.
-    pub film: Film,
+    pub film: Arc<Film>,
     /// Times along the path.
     pub course: GunCourse,
     /// The coat; for a proposal, the one found.
@@ -91,7 +91,7 @@ pub(super) fn enrolled<'a>(
     loaded: &'a LoadedLibrary,
     part: &PartName,
 ) -> Result<(usize, &'a Reference), UserError> {
-    let index = loaded.shown.place_of(part.as_str());
+    let index = loaded.shown.index_of(part.as_str());
     let found = index.and_then(|index| Some((index, loaded.library.references.get(index)?)));
     found.ok_or_else(|| UserError {
         what: text!("paint-no-such-part", part = part.as_str()),
@@ -126,7 +126,7 @@ pub(super) fn planned(
         coat,
         path,
         film,
-    } = job.painted(context)?;
+    } = remembered(&DONE, job, |job| job.paint(context))?;
     context.check()?;
     let course = GunCourse::of(&path, coat.speed);
     let planned = Planned {
@@ -166,34 +166,48 @@ struct PaintJob {
 /// A path with its film.
 #[derive(Clone)]
 struct Painted {
-    surface: PaintSurface,
+    surface: Arc<PaintSurface>,
     coat: Coat,
-    path: SprayPath,
-    film: Film,
+    path: Arc<SprayPath>,
+    film: Arc<Film>,
 }
 
 /// The jobs done last, most recently first: after a step back or forth, and when a part is chosen again, its path is there
-/// at once.
+/// at once. While a slider is dragged, each job that is done in time is kept like any other: only when the slider is let go it
+/// is known which of them was the last.
 static DONE: Mutex<Vec<(PaintJob, Painted)>> = Mutex::new(Vec::new());
 /// How many are kept; each takes a megabyte or two.
 const MAX_DONE: usize = 16;
 
-impl PaintJob {
-    /// Does the job, unless it was among the last.
-    fn painted(self, context: &TaskContext<PaintResult>) -> Result<Painted, TaskError> {
-        let mut done = lock(&DONE);
-        if let Some(index) = done.iter().position(|(job, _)| *job == self) {
-            done[..=index].rotate_right(1);
-            return Ok(done[0].1.clone());
-        }
-        drop(done);
-        let painted = self.paint(context)?;
-        let mut done = lock(&DONE);
-        done.truncate(MAX_DONE - 1);
-        done.insert(0, (self, painted.clone()));
-        Ok(painted)
+/// Does a job, unless it was among the last.
+fn remembered<J: PartialEq, R: Clone, E>(
+    done: &Mutex<Vec<(J, R)>>,
+    job: J,
+    work: impl FnOnce(&J) -> Result<R, E>,
+) -> Result<R, E> {
+    let earlier = known(&mut lock(done), &job);
+    if let Some(result) = earlier {
+        return Ok(result);
     }
+    let result = work(&job)?;
+    let mut done = lock(done);
+    // Another thread may have done it meanwhile.
+    if let Some(result) = known(&mut done, &job) {
+        return Ok(result);
+    }
+    done.truncate(MAX_DONE - 1);
+    done.insert(0, (job, result.clone()));
+    Ok(result)
+}
 
+/// The result of a job that was done, which becomes the first.
+fn known<J: PartialEq, R: Clone>(done: &mut [(J, R)], job: &J) -> Option<R> {
+    let index = done.iter().position(|(of, _)| of == job)?;
+    done[..=index].rotate_right(1);
+    Some(done[0].1.clone())
+}
+
+impl PaintJob {
     fn paint(&self, context: &TaskContext<PaintResult>) -> Result<Painted, TaskError> {
         let (coat, regions) = (&self.coat, &self.regions);
         let surface = PaintSurface::of_cloud(&self.cloud, self.coverage, self.side);
@@ -220,10 +234,10 @@ impl PaintJob {
             (*coat, path, film)
         };
         Ok(Painted {
-            surface,
+            surface: Arc::new(surface),
             coat,
-            path,
-            film,
+            path: Arc::new(path),
+            film: Arc::new(film),
         })
     }
 }
@@ -419,6 +433,34 @@ impl GunCourse {
 mod tests {
     use super::*;
     use inspection::library::PathPoint;
+
+    #[test]
+    fn the_result_of_a_job_done_before_is_the_very_same() {
+        let done = Mutex::default();
+        let do_job = |job: usize| remembered(&done, job, |job| Ok::<_, ()>(Arc::new(*job)));
+        let first = do_job(0).expect("done");
+        for other in 1..MAX_DONE {
+            do_job(other).expect("done");
+        }
+        assert!(Arc::ptr_eq(&first, &do_job(0).expect("known")));
+        // The one that was asked for longest ago makes room.
+        let second = do_job(1).expect("known");
+        do_job(MAX_DONE).expect("done");
+        assert!(Arc::ptr_eq(&second, &do_job(1).expect("known")));
+        assert!(lock(&done).iter().all(|(job, _)| *job != 2));
+        assert_eq!(lock(&done).len(), MAX_DONE);
+        // Another thread does the same job at the same time.
+        let both = remembered(&done, 99, |job| do_job(*job).map(|_| Arc::new(*job)));
+        assert!(Arc::ptr_eq(
+            &both.expect("done"),
+            &do_job(99).expect("known")
+        ));
+        assert_eq!(
+            remembered(&done, 100, |_| Err("cancelled")),
+            Err("cancelled")
+        );
+        assert!(lock(&done).iter().all(|(job, _)| *job != 100));
+    }
 
     #[test]
     fn the_gun_is_where_time_and_speed_put_it() {

@@ -177,7 +177,7 @@ impl ServoPageState {
 pub(super) fn chosen_part(session: &Session) -> Option<&str> {
     let library = session.library.as_ref()?;
     let chosen = session.servo.part.as_deref();
-    let chosen = chosen.filter(|name| library.place_of(name).is_some());
+    let chosen = chosen.filter(|name| library.index_of(name).is_some());
     chosen.or_else(|| library.parts.first().map(|part| part.name.as_str()))
 }
 

@@ -303,7 +303,7 @@ fn real(
     let feed = cameras.feed(&cell.source);
     let feed = feed.map_err(|error| UserError::of(&error))?;
     let shown = &loaded.shown;
-    let index = shown.place_of(&request.part);
+    let index = shown.index_of(&request.part);
     let path = index.and_then(|index| shown.spray_paths.get(index)?.as_ref());
     let robot = RealRobot {
         address: cell.address,

@@ -1,7 +1,8 @@
 //! Live: follows a camera and inspects as many of its frames as possible; a verdict counts once the part hangs still.
 //!
-//! The camera's thread hands over its newest frame, the task's thread inspects it, and the window shows the latest result. No
-//! thread waits for another: frames that arrive during an inspection are dropped.
+//! The camera's thread hands over its newest frame, the task's thread inspects it, and the window shows the latest result.
+//! Frames that arrive during an inspection are dropped. An inspection waits only until the watch for motion has seen its frame,
+//! 3 s at most.
 
 mod parts;
 pub mod state;

@@ -20,7 +20,7 @@ use ui::{
 };
 
 /// Time between two looks at whether the camera is closed.
-const TURN: Duration = Duration::from_millis(5);
+const POLL_INTERVAL: Duration = Duration::from_millis(5);
 
 /// Carries out an action.
 pub fn apply(state: &mut State, action: LiveAction) -> Option<Action> {
@@ -189,7 +189,7 @@ pub fn close(state: &mut State) -> Vec<Event> {
     }
     let mut events = update(state);
     while !state.follower.is_idle() {
-        thread::sleep(TURN);
+        thread::sleep(POLL_INTERVAL);
         events.extend(update(state));
     }
     events

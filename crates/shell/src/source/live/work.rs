@@ -180,7 +180,7 @@ pub enum SourceState {
 }
 
 /// Time to wait for a frame before checking for cancellation again.
-const TURN: Duration = Duration::from_millis(50);
+const POLL_INTERVAL: Duration = Duration::from_millis(50);
 /// Number of latencies that the median is taken of.
 const NUM_LATENCIES: usize = 15;
 
@@ -232,9 +232,9 @@ struct LiveSession<'a> {
     recorded: Option<Recorded>,
     recipe_identity: String,
     /// `None` for a source whose captures are independent.
-    watch: Option<LiveTracker>,
+    tracker: Option<LiveTracker>,
     /// Sees the frames that are dropped while others are inspected.
-    motion: Option<MotionWatch>,
+    motion_watch: Option<MotionWatch>,
     rate: FrameRate,
     latencies: VecDeque<Duration>,
     standing: LiveVerdict,
@@ -263,7 +263,7 @@ impl<'a> LiveSession<'a> {
         context: &'a TaskContext<LiveAnswer>,
     ) -> Self {
         let stands_for_itself = matches!(request.spec, SourceSpec::Watched(_));
-        let watch = (!stands_for_itself).then(|| LiveTracker::new(&request.params));
+        let tracker = (!stands_for_itself).then(|| LiveTracker::new(&request.params));
         Self {
             library_cache,
             context,
@@ -271,9 +271,9 @@ impl<'a> LiveSession<'a> {
             record: request.record.as_deref(),
             recorded: None,
             recipe_identity: request.recipe.identity(),
-            stillness: watch.as_ref().map(LiveTracker::stillness),
-            watch,
-            motion: None,
+            stillness: tracker.as_ref().map(LiveTracker::stillness),
+            tracker,
+            motion_watch: None,
             rate: FrameRate::default(),
             latencies: VecDeque::new(),
             standing: LiveVerdict::Open,
@@ -286,8 +286,8 @@ impl<'a> LiveSession<'a> {
 
     fn follow(mut self, feed: &Feed) -> Result<LiveAnswer, TaskError> {
         self.dropped_before = feed.status().num_dropped;
-        let motion = MotionWatch::of_source(&self.request.spec, feed);
-        self.motion = motion.map_err(|error| TaskError::from(UserError::of(&error)))?;
+        let motion_watch = MotionWatch::of_source(&self.request.spec, feed);
+        self.motion_watch = motion_watch.map_err(|error| TaskError::from(UserError::of(&error)))?;
         if let Some(first) = self.request.again.first() {
             match guarded(|| self.inspect_again(first)) {
                 Ok(inspected) => inspected?,
@@ -297,7 +297,7 @@ impl<'a> LiveSession<'a> {
         }
         loop {
             self.context.check()?;
-            match feed.wait(TURN) {
+            match feed.wait(POLL_INTERVAL) {
                 Some(FeedItem::Captured(captured)) => {
                     self.write(&captured, feed);
                     let name = captured.name.clone();
@@ -366,8 +366,8 @@ impl<'a> LiveSession<'a> {
             source: SceneSource::AtHand(scene, before.origin.clone()),
             recipe: Arc::clone(&self.request.recipe),
         };
-        let watching = SilentContext(self.context);
-        let mut parts = inspect_all(&request, self.library_cache, &watching)?;
+        let silent = SilentContext(self.context);
+        let mut parts = inspect_all(&request, self.library_cache, &silent)?;
         for part in &mut parts {
             part.set_captured_at(before.captured_at);
             part.entry.record.summary.source = self.request.spec.to_string();
@@ -382,9 +382,9 @@ impl<'a> LiveSession<'a> {
     /// Inspects a frame.
     fn take(&mut self, captured: Captured, num_dropped: u64) -> Result<(), TaskError> {
         let loaded = self.library_cache.get();
-        let watching = SilentContext(self.context);
+        let silent = SilentContext(self.context);
         let recipe = &self.request.recipe;
-        let fitted = loaded.fitting(recipe, &watching);
+        let fitted = loaded.fitting(recipe, &silent);
         let fitted = fitted.ok_or(TaskError::Cancelled)?;
         let (arrived, at, number) = (captured.arrived, seconds(&captured), captured.number);
         let taken_at = captured.taken_at;
@@ -398,12 +398,12 @@ impl<'a> LiveSession<'a> {
             Arc::make_mut(&mut scene).empty_cell = Some(Arc::clone(cell));
         }
         let is_ending = || self.context.is_cancelled();
-        let motion = self.motion.as_ref();
-        let watched = motion.map(|motion| motion.motion_of(taken_at, arrived, is_ending));
-        if let Some(watch) = &mut self.watch {
-            scene = watch.look(scene, at, watched);
+        let motion_watch = self.motion_watch.as_ref();
+        let motion = motion_watch.map(|watch| watch.motion_of(taken_at, arrived, is_ending));
+        if let Some(tracker) = &mut self.tracker {
+            scene = tracker.look(scene, at, motion);
         }
-        let found = pipeline::run_all(&scene, &fitted, recipe, &watching)?;
+        let found = pipeline::run_all(&scene, &fitted, recipe, &silent)?;
         let inputs = format!("{} {}", self.recipe_identity, loaded.shown.identity);
         let frame = SeenFrame {
             scene: &scene,
@@ -432,8 +432,8 @@ impl<'a> LiveSession<'a> {
                 warnings: warnings.clone(),
                 recipe: Arc::clone(recipe),
                 inspection: part.inspection.clone(),
-                followed: self.watch.as_ref().map(|watch| LiveFrameContext {
-                    stillness: watch.stillness(),
+                followed: self.tracker.as_ref().map(|tracker| LiveFrameContext {
+                    stillness: tracker.stillness(),
                     standing: part.verdict.clone(),
                 }),
                 source: self.request.spec.to_string(),
@@ -459,7 +459,7 @@ impl<'a> LiveSession<'a> {
     ) -> Vec<SeenPart> {
         let recipe = &self.request.recipe;
         let middle = |part: &Inspection| part.middle(library);
-        let Some(watch) = &mut self.watch else {
+        let Some(tracker) = &mut self.tracker else {
             // Captures are independent, and what each shows are hung parts of their own.
             let alone = |inspection| SeenPart {
                 role: FrameRole::First,
@@ -468,12 +468,12 @@ impl<'a> LiveSession<'a> {
             return found.into_iter().map(alone).collect();
         };
         let mut followed = lock(&self.request.parts);
-        let (parts, absent) = frame.judge(found, watch, &mut followed.spots, recipe, middle);
+        let (parts, absent) = frame.judge(found, tracker, &mut followed.spots, recipe, middle);
         drop(followed);
         self.standing = parts
             .first()
             .map_or(LiveVerdict::Open, |part| part.verdict.clone());
-        self.stillness = Some(watch.stillness());
+        self.stillness = Some(tracker.stillness());
         for part in parts.iter().chain(&absent) {
             if part.role == FrameRole::Nothing {
                 self.see(part, frame);
@@ -492,7 +492,7 @@ impl<'a> LiveSession<'a> {
 
     /// Every part of a frame is taken in.
     fn seen(&self, arrived: Instant) {
-        if self.watch.is_some() {
+        if self.tracker.is_some() {
             lock(&self.request.parts).seen(arrived);
         }
     }
@@ -526,7 +526,7 @@ impl<'a> LiveSession<'a> {
             inspected.set_part(hung, trace.unwrap_or_default());
         }
         let shown: Vec<Arc<Inspected>> = shown.into_iter().map(Arc::new).collect();
-        if self.watch.is_none() {
+        if self.tracker.is_none() {
             followed.seen_alone(arrived, &shown);
         }
         let mut counted = Vec::new();
@@ -578,10 +578,10 @@ impl<'a> LiveSession<'a> {
             standing: self.standing.clone(),
             rates: [feed.rate, self.rate.per_second(Instant::now())],
             latency: latencies.get(latencies.len() / 2).copied(),
-            held_up_by: self.watch.as_ref().and_then(LiveTracker::held_up_by),
+            held_up_by: self.tracker.as_ref().and_then(LiveTracker::held_up_by),
             num_inspected: self.num_inspected,
             num_dropped: feed.num_dropped.saturating_sub(self.dropped_before),
-            num_averaged: self.watch.as_ref().map_or(1, LiveTracker::num_averaged),
+            num_averaged: self.tracker.as_ref().map_or(1, LiveTracker::num_averaged),
             recorded: self.recorded.clone(),
         };
         let is_news = self.sent.as_ref().is_none_or(|sent| {

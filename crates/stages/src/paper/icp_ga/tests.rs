@@ -36,7 +36,7 @@ fn t4_and_t5_are_undone_where_icp_alone_is_stuck() {
         let stuck = align(&source, &target, PoseMethod::Icp, None).expect("a pose");
         assert!(stuck.fit.e_m2 > 1e-4, "{:?}", stuck.fit);
         let found = align(&source, &target, PoseMethod::IcpGa, None).expect("a pose");
-        assert_eq!(found.stopped, Stopped::BelowTarget);
+        assert_eq!(found.stopped, Stopped::BelowThreshold);
         assert!(found.fit.e_m2 < 1e-6, "{:?}", found.fit);
         let middle = source_from_target * Point3::new(0.5, 0.3, 0.1);
         let error = pose_error(
@@ -119,7 +119,7 @@ fn a_start_given_is_where_the_search_begins() {
     let source = moved(&target, &source_from_target);
     let start = source_from_target.inverse();
     let found = align(&source, &target, PoseMethod::IcpGa, Some(start)).expect("a pose");
-    assert_eq!(found.stopped, Stopped::BelowTarget);
+    assert_eq!(found.stopped, Stopped::BelowThreshold);
     assert!(found.iterations.iter().all(|i| i.phase == Phase::Icp));
     assert!(found.iterations.len() < 5, "{}", found.iterations.len());
 }

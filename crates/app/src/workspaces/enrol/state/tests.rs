@@ -764,7 +764,7 @@ fn an_operator_is_asked_for_the_engineer_before_anything_changes() {
     bench.enrol.apply(discard, &mut bench.shell.context());
     assert!(matches!(
         bench.shell.sent[..],
-        [Action::EngineerIn(WorkspaceKind::Enrol)]
+        [Action::AskEngineer(WorkspaceKind::Enrol)]
     ));
     bench.shell.sent.clear();
     assert!(bench.enrol.draft.is_some());

@@ -271,7 +271,7 @@ fn another_rule_for_frames_waits_for_the_engineer() {
     assert!(bench.history.rule.is_none());
     assert!(matches!(
         bench.shell.sent[..],
-        [Action::EngineerIn(WorkspaceKind::History)]
+        [Action::AskEngineer(WorkspaceKind::History)]
     ));
     bench.shell.session.role = UserRole::Engineer;
     bench

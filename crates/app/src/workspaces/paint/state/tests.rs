@@ -148,9 +148,9 @@ impl Bench {
 #[test]
 fn a_changed_parameter_gives_another_path_and_undo_the_former() {
     let mut bench = Bench::new();
-    let first = bench.planned().path.clone();
+    let first = Arc::clone(&bench.planned().path);
     bench.set("spacing", 40.0);
-    let closer = bench.planned().path.clone();
+    let closer = Arc::clone(&bench.planned().path);
     assert!(closer.points().len() > first.points().len());
     assert!(bench.paint.design.is_coat_changed());
     bench.set("spacing", 5000.0);
@@ -278,7 +278,7 @@ fn the_notice_of_a_stored_path_takes_it_back_whatever_was_changed_since() {
 #[test]
 fn a_part_that_cannot_be_painted_says_why_and_the_former_path_stays() {
     let mut bench = Bench::new();
-    let before = bench.planned().path.clone();
+    let before = Arc::clone(&bench.planned().path);
     let everything = KeepOut::Sphere {
         centre: bench.planned().surface.middle,
         radius: 5.0,
@@ -327,7 +327,7 @@ fn nothing_of_another_part_is_shown_under_the_name_of_the_part_to_paint() {
 #[test]
 fn the_former_path_of_a_part_stays_and_is_marked_until_the_next_is_there() {
     let mut bench = Bench::new();
-    let before = bench.planned().path.clone();
+    let before = Arc::clone(&bench.planned().path);
     assert!(!bench.paint.is_old(&bench.shell.session));
     let closer = PaintAction::Change("spacing", ParameterChange::Set(40.0));
     bench.act(closer);
@@ -407,10 +407,10 @@ fn the_gun_is_scrubbed_stepped_and_played_to_the_end() {
 #[test]
 fn a_stroke_moved_by_hand_stays_until_another_path_is_planned_and_undo_brings_it_back() {
     let mut bench = Bench::new();
-    let planned = bench.planned().path.clone();
+    let planned = Arc::clone(&bench.planned().path);
     let by = nalgebra::Vector3::new(0.0, 0.03, 0.0);
     bench.run(PaintAction::Edit(PathEdit::Stroke { stroke: 2, by }));
-    let moved = bench.planned().path.clone();
+    let moved = Arc::clone(&bench.planned().path);
     assert_ne!(moved, planned);
     assert!(bench.paint.unsaved().is_some());
     bench.set("spacing", 50.0);
