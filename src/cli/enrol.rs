@@ -245,7 +245,18 @@ fn enrolled_from(
                 "Leave --segment out",
             ));
         }
-        FileContent::Mesh(mesh) => enrol_mesh(&mesh, &about, &params).map(alone),
+        FileContent::Mesh(mesh) => match enrol_mesh(&mesh, &about, &params) {
+            Err(error) if let Some(name) = list_meshes(file, console) => {
+                let advice = error.advice();
+                return Err(advised_error(
+                    format!("{path}: {error}"),
+                    format!(
+                        "{advice}; if its meshes are parts, enrol one of them, such as {path}#{name}"
+                    ),
+                ));
+            }
+            enrolled => enrolled.map(alone),
+        },
         FileContent::Depth(frame) if args.whole => {
             enrol_whole(&scene_from_frame(&frame).cloud, &about, &params).map(alone)
         }
@@ -292,10 +303,10 @@ fn list_surfaces(scene: &SceneCloud, params: &EnrolParams, console: &Console) {
 /// The most meshes listed: a whole car has thousands, and its body parts come first.
 const MAX_LISTED: usize = 30;
 
-/// Lists the meshes to choose from, with their sizes, the longest first.
-fn list_meshes(file: &Path, console: &Console) {
+/// Lists the meshes to choose from, with their sizes, the longest first. Returns the name of that; `None` unless there are several.
+fn list_meshes(file: &Path, console: &Console) -> Option<String> {
     let Ok(OpenedFile::Several(listed)) = files::open_each(file) else {
-        return;
+        return None;
     };
     let mm = 1000.0 * listed.options.unit.metres();
     let mut meshes: Vec<&NamedMesh> = listed.meshes.iter().collect();
@@ -318,4 +329,5 @@ fn list_meshes(file: &Path, console: &Console) {
     if num_more > 0 {
         console.note(&format_args!("and {num_more} more; the window lists all"));
     }
+    meshes.first().map(|named| named.name.clone())
 }

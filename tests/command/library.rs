@@ -223,6 +223,18 @@ fn without_a_name_the_meshes_of_a_file_are_listed_the_longest_first() {
     ];
     assert_eq!(lines[..2], expected, "{}", ran.err);
     assert!(ran.err.contains("car.gltf#Door_FL"), "{}", ran.err);
+    // An OBJ is one part, if it can be one.
+    let obj = "o Door\nv 0 0 0\nv 1 0 0\nv 0 0.5 0\nf 1 2 3\no Hood\nv 9 0 0\nv 11 0 0\nv 9 1 0\nf 4 5 6\n";
+    fs::write(place.path("car.obj"), obj).expect("written");
+    let ran = place.run(&["enrol", "car.obj", "--name", "hood", "--library", "parts"]);
+    assert_eq!(ran.code, 2);
+    for named in [
+        "mesh Hood: 2000 x 1000 x 0 mm",
+        "the part spans",
+        "such as car.obj#Hood",
+    ] {
+        assert!(ran.err.contains(named), "{}", ran.err);
+    }
     assert!(!place.path("parts").exists());
 }
 

@@ -160,7 +160,7 @@ fn a_frame_that_cannot_be_written_costs_no_row_and_is_told_once_until_one_can() 
         for news in keeper.take_news() {
             match news {
                 HistoryEvent::FramesNotKept { what, advice } => {
-                    of_frames.push(Some((what, advice)))
+                    of_frames.push(Some((what, advice)));
                 }
                 HistoryEvent::FramesKept => of_frames.push(None),
                 HistoryEvent::Added { .. } => {}
