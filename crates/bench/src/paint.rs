@@ -266,13 +266,13 @@ fn hung_change(
         .fold(0.0, f64::max))
 }
 
-/// Returns the thickness change at each reachable point, as a share of the target.
+/// Returns the thickness change at each paintable point, as a share of the target.
 fn changes(before: &Film, after: &Film, coat: &Coat) -> Vec<f64> {
     let each = before
         .thickness
         .iter()
         .zip(&after.thickness)
-        .zip(&before.is_reachable);
+        .zip(&before.is_paintable);
     each.filter(|(_, is)| **is)
         .map(|((a, b), _)| (a - b).abs() / coat.target)
         .collect()

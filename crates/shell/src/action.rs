@@ -12,7 +12,7 @@ use crate::{
     notice::{Notice, NoticeTopic},
     rack::RackAction,
     roles::RoleAction,
-    session::{ReinspectionPurpose, RememberedCell, Source, WorkspaceKind},
+    session::{PaintTab, ReinspectionPurpose, RememberedCell, Source, WorkspaceKind},
     source::live::LiveAction,
     trace::orders::ExpectAction,
 };
@@ -116,6 +116,8 @@ pub enum Action {
     UseProgramSetup(ProgramSetup),
     /// Servo with these settings.
     UseServoSettings(ServoSettings),
+    /// Show this tab of Paint.
+    ShowPaintTab(PaintTab),
     /// The library was changed: use it. If Live is on, it starts over; else inspect `saved`, or the scene in front unless
     /// another inspection is running.
     LibraryChanged {

@@ -89,6 +89,7 @@ pub fn apply(state: &mut State, action: Action) -> Option<Action> {
         Action::UseAnswering(setup) => return use_answering(state, setup),
         Action::UseProgramSetup(setup) => state.session.program = setup,
         Action::UseServoSettings(setup) => state.session.servo = setup,
+        Action::ShowPaintTab(tab) => state.session.paint_tab = tab,
         Action::LibraryChanged { library, saved } => state.library_changed(&library, saved),
         Action::Inspect {
             title,

@@ -63,6 +63,8 @@ pub struct Session {
     pub program: ProgramSetup,
     /// What is servoed.
     pub servo: ServoSettings,
+    /// The tab of Paint that is shown.
+    pub paint_tab: PaintTab,
     /// Where parts may hang.
     pub rack: RackInUse,
     /// The window in which the rack is edited, while it is open: every part of a frame is found, so that each can get a place.
@@ -394,6 +396,26 @@ impl WorkspaceKind {
             Self::History => text!("shell-history"),
         }
     }
+}
+
+/// A tab of Paint.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum PaintTab {
+    /// The coat: gun, path and film as they are wanted.
+    #[default]
+    Coat,
+    /// What gets paint, and corrections of the path by hand.
+    Regions,
+    /// The arm, and how much of the path it reaches.
+    Robot,
+    /// The simulated film.
+    Film,
+}
+
+impl PaintTab {
+    /// All tabs, in the order of their row.
+    pub const ALL: [Self; 4] = [Self::Coat, Self::Regions, Self::Robot, Self::Film];
 }
 
 /// Role of the user.

@@ -16,7 +16,10 @@ use crate::{
     notice::Notice,
     rack::RackInUse,
     roles::{LOCK_AFTER, Pin, RoleState, is_operators},
-    session::{RememberedCell, Session, ShiftStarts, Source, ThemeChoice, UserRole, WorkspaceKind},
+    session::{
+        PaintTab, RememberedCell, Session, ShiftStarts, Source, ThemeChoice, UserRole,
+        WorkspaceKind,
+    },
     source::live::LiveState,
     state::State,
     trace::{current_trace::CurrentTrace, orders::Expecting},
@@ -58,6 +61,8 @@ pub struct Settings {
     pub program: ProgramSetup,
     /// What is servoed.
     pub servo: ServoSettings,
+    /// The tab of Paint that is shown.
+    pub paint_tab: PaintTab,
     /// The workspace in front.
     pub workspace: WorkspaceKind,
     /// The library chosen in the window; `None` for the one that the command line would find.
@@ -106,6 +111,7 @@ impl Default for Settings {
             convention: Convention::default(),
             program: ProgramSetup::default(),
             servo: ServoSettings::default(),
+            paint_tab: PaintTab::default(),
             workspace: WorkspaceKind::default(),
             library: None,
             recent: Vec::new(),
@@ -139,6 +145,7 @@ impl Settings {
             convention: state.session.convention,
             program: state.session.program.clone(),
             servo: state.session.servo.clone(),
+            paint_tab: state.session.paint_tab,
             workspace: state.session.workspace,
             library: state.session.chosen_library.clone(),
             recent: state.session.recent.clone(),
@@ -177,6 +184,7 @@ impl Settings {
             convention: self.convention,
             program: self.program,
             servo: self.servo,
+            paint_tab: self.paint_tab,
             chosen_library: self.library,
             recent: self.recent,
             source: self.source,

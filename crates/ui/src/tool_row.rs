@@ -1,8 +1,14 @@
-//! A row of tools: buttons in groups, on as many lines as they need.
+//! Tools, which are buttons in groups on as many lines as they need, and tabs.
 
-use egui::{Button, RichText, TextWrapMode, Ui, Vec2, WidgetText};
+use egui::{
+    Align2, Button, FontId, RichText, Role, Sense, TextWrapMode, Ui, Vec2, WidgetInfo, WidgetText,
+    vec2,
+};
 
-use super::theme::{font, space};
+use super::{
+    theme::{Theme, font, space},
+    widgets::{focus_ring, heading, text_width},
+};
 
 /// Draws a button that can be the selected one of several.
 pub fn choice(
@@ -13,11 +19,11 @@ pub fn choice(
     is_enabled: bool,
 ) -> egui::Response {
     let button = Button::new(RichText::new(text).small()).selected(is_chosen);
+    // In a wrapped row it moves to the next line before its text breaks.
+    let button = button.wrap_mode(TextWrapMode::Extend);
     let button = button.min_size(Vec2::splat(space::TARGET));
     let response = ui.add_enabled(is_enabled, button);
-    response.widget_info(|| {
-        egui::WidgetInfo::selected(egui::Role::Button, is_enabled, is_chosen, label)
-    });
+    response.widget_info(|| WidgetInfo::selected(Role::Button, is_enabled, is_chosen, label));
     response
 }
 
@@ -37,9 +43,23 @@ pub struct Tool<A> {
     pub action: A,
 }
 
+/// Room on either side of a tool's text, logical pixels.
+const PADDING: f32 = 9.0;
+
+/// Draws a group of tools below its title.
+pub fn tool_group<A>(ui: &mut Ui, title: &str, tools: Vec<Tool<A>>, actions: &mut Vec<A>) {
+    heading(ui, title);
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().button_padding.x = PADDING;
+        for tool in tools {
+            tool_button(ui, tool, actions);
+        }
+    });
+}
+
 /// Draws sets of groups, with as many sets on a line as fit; a set is never split.
 pub fn tool_row<A>(ui: &mut Ui, sets: Vec<Vec<Vec<Tool<A>>>>, actions: &mut Vec<A>) {
-    ui.spacing_mut().button_padding.x = 9.0;
+    ui.spacing_mut().button_padding.x = PADDING;
     let room = ui.available_width();
     let gap = space::MEDIUM + ui.spacing().item_spacing.x;
     let is_there = |set: &Vec<Vec<Tool<A>>>| set.iter().any(|group| !group.is_empty());
@@ -63,15 +83,19 @@ fn buttons<A>(ui: &mut Ui, groups: Vec<Vec<Tool<A>>>, actions: &mut Vec<A>) {
             ui.add_space(space::MEDIUM);
         }
         for tool in group {
-            let Tool { text, label, .. } = &tool;
-            let mut response = choice(ui, text, label, tool.is_chosen, tool.is_enabled);
-            if let Some(hint) = tool.hint {
-                response = response.on_hover_text(hint);
-            }
-            if response.clicked() {
-                actions.push(tool.action);
-            }
+            tool_button(ui, tool, actions);
         }
+    }
+}
+
+fn tool_button<A>(ui: &mut Ui, tool: Tool<A>, actions: &mut Vec<A>) {
+    let Tool { text, label, .. } = &tool;
+    let mut response = choice(ui, text, label, tool.is_chosen, tool.is_enabled);
+    if let Some(hint) = tool.hint {
+        response = response.on_hover_text(hint);
+    }
+    if response.clicked() {
+        actions.push(tool.action);
     }
 }
 
@@ -89,4 +113,56 @@ fn width<A>(ui: &Ui, groups: &[Vec<Tool<A>>], gap: f32) -> f32 {
         group.iter().map(of_one).sum::<f32>() + gaps
     };
     groups.iter().map(of_group).sum::<f32>() + gap * (groups.len() - 1) as f32
+}
+
+/// Draws tabs across all the room, each as wide as its title and an equal share of the rest. Returns the one that was pressed.
+pub fn tab_row<T: Copy + PartialEq>(ui: &mut Ui, tabs: &[(T, String)], shown: T) -> Option<T> {
+    let theme = Theme::of(ui);
+    let room = ui.available_width();
+    let titles = tabs.iter().map(|(_, title)| title);
+    let widths_in = |font: &FontId| -> Vec<f32> {
+        let widths = titles.clone();
+        widths
+            .map(|title| text_width(ui.painter(), title, font))
+            .collect()
+    };
+    let rest = |widths: &[f32]| (room - widths.iter().sum::<f32>()) / tabs.len() as f32;
+    let (mut typeface, mut widths) = (font::body(), widths_in(&font::body()));
+    if rest(&widths) < 2.0 * space::MEDIUM {
+        (typeface, widths) = (font::small(), widths_in(&font::small()));
+    }
+    let rest = rest(&widths);
+    let mut pressed = None;
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 0.0;
+        for ((tab, title), width) in tabs.iter().zip(widths) {
+            let size = vec2(width + rest, space::TARGET);
+            let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+            let is_shown = *tab == shown;
+            let colour = if is_shown || response.hovered() {
+                theme.text
+            } else {
+                theme.weak_text
+            };
+            let painter = ui.painter();
+            let middle = rect.center();
+            painter.text(
+                middle,
+                Align2::CENTER_CENTER,
+                title,
+                typeface.clone(),
+                colour,
+            );
+            if is_shown {
+                let bar = rect.with_min_y(rect.bottom() - 3.0);
+                painter.rect_filled(bar, 0.0, theme.accent);
+            }
+            focus_ring(ui, rect, &response);
+            response.widget_info(|| WidgetInfo::selected(Role::Tab, true, is_shown, title));
+            if response.clicked() {
+                pressed = Some(*tab);
+            }
+        }
+    });
+    pressed
 }

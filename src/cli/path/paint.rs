@@ -230,7 +230,7 @@ fn show(
             "spacing_mm": 1000.0 * coat.spacing,
             "speed_mm_s": 1000.0 * coat.speed,
             "target_um": micrometres(coat.target),
-            "reachable": figures.reachable,
+            "reachable": figures.paintable,
             "within": figures.within,
             "missed": figures.missed,
             "double": figures.double,
@@ -257,12 +257,12 @@ fn show(
             100.0 * figures.double
         ));
         console.line(&format_args!(
-            "  {:.1} m in {:.0} s, {:.0} ml of paint, {:.0} % of its solids on the part; {:.1} % of the surface is reachable",
+            "  {:.1} m in {:.0} s, {:.0} ml of paint, {:.0} % of its solids on the part; {:.1} % of the surface is paintable",
             takes.length,
             takes.time,
             1e6 * takes.paint,
             100.0 * takes.landed,
-            100.0 * figures.reachable
+            100.0 * figures.paintable
         ));
     }
     Outcome::accepted_if(figures.within >= LEAST_WITHIN)

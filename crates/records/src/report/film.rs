@@ -18,8 +18,8 @@ const COLOURS: [(f64, [f64; 3]); 6] = [
     (1.2, [240.0, 200.0, 60.0]),
     (2.0, [220.0, 50.0, 40.0]),
 ];
-/// Colour of points that are not reachable.
-const UNREACHABLE: Rgb<u8> = Rgb([90, 90, 96]);
+/// Colour of points that are not paintable.
+const NOT_PAINTABLE: Rgb<u8> = Rgb([90, 90, 96]);
 /// Upper left and lower right corner of the part, of the histogram and of the scale, pixels.
 const PART: [[f64; 2]; 2] = [[30.0, 60.0], [770.0, 540.0]];
 const BARS: [[f64; 2]; 2] = [[900.0, 90.0], [1270.0, 420.0]];
@@ -34,8 +34,8 @@ pub struct FilmPicture<'a> {
     pub places: &'a [[f64; 2]],
     /// Thickness at each point, relative to the target.
     pub shares: &'a [f64],
-    /// True for reachable points.
-    pub is_reachable: &'a [bool],
+    /// True for paintable points.
+    pub is_paintable: &'a [bool],
     /// Point spacing, metres.
     pub spacing: f64,
     /// Share of the points per bin of thickness, a tenth of the target each; the last bin is open.
@@ -87,14 +87,14 @@ fn draw_part(canvas: &mut Canvas, film: &FilmPicture<'_>) {
         .fold(5000.0, f64::min);
     let middle = [f64::midpoint(left, right), f64::midpoint(top, bottom)];
     let half = (0.5 * scale * film.spacing).max(1.0) + 0.5;
-    for ((place, share), is_reachable) in film.places.iter().zip(film.shares).zip(film.is_reachable)
+    for ((place, share), is_paintable) in film.places.iter().zip(film.shares).zip(film.is_paintable)
     {
         let x = middle[0] + scale * (place[0] - f64::midpoint(low[0], high[0]));
         let y = middle[1] - scale * (place[1] - f64::midpoint(low[1], high[1]));
-        let shown = if *is_reachable {
+        let shown = if *is_paintable {
             colour(*share)
         } else {
-            UNREACHABLE
+            NOT_PAINTABLE
         };
         canvas.block([x - half, y - half], [x + half, y + half], shown);
     }
@@ -128,7 +128,7 @@ fn draw_histogram(canvas: &mut Canvas, histogram: &[f64]) {
                 .collect(),
         },
         up: Axis {
-            title: "share of the reachable area, %",
+            title: "share of the paintable area, %",
             range: [0.0, 1.05 * most],
             division: Division::Even,
             ticks: (0..=4)
@@ -170,9 +170,9 @@ fn draw_scale(canvas: &mut Canvas) {
         canvas.line([x, bottom], [x, bottom + 5.0], DIM);
         canvas.write(words, LETTERS, [x, bottom + 22.0], Anchor::Middle, LIGHT);
     }
-    canvas.block([left, 550.0], [left + 14.0, 564.0], UNREACHABLE);
+    canvas.block([left, 550.0], [left + 14.0, 564.0], NOT_PAINTABLE);
     canvas.write(
-        "not reachable",
+        "not paintable",
         LETTERS,
         [left + 22.0, 563.0],
         Anchor::Left,
@@ -199,7 +199,7 @@ mod tests {
             title: "",
             places: &[[0.0, 0.0]],
             shares: &[1.0],
-            is_reachable: &[true],
+            is_paintable: &[true],
             spacing: 0.01,
             histogram: &[1.0],
         };
@@ -208,7 +208,7 @@ mod tests {
         film = FilmPicture {
             places: &[],
             shares: &[],
-            is_reachable: &[],
+            is_paintable: &[],
             ..film
         };
         assert_eq!(film_picture(&film).get_pixel(400, 300).0, DARK.0);

@@ -16,7 +16,7 @@ use super::{
     coat::Coat,
     dwell::{Goal, Way},
     error::PaintError,
-    film::{Deposit, are_reachable, deposits},
+    film::{Deposit, are_paintable, deposits},
     propose::{GOOD_WITHIN, SPEED_RANGE_M_S, best_factor},
     region::KeepOut,
     surface::{PaintSurface, tree_of},
@@ -78,7 +78,7 @@ pub(super) fn evened(
     {
         return Ok((at_speed(points, speed, |_| 1.0), speed));
     }
-    let is_wanted = are_reachable(surface, coat, keep_outs);
+    let is_wanted = are_paintable(surface, coat, keep_outs);
     let left = deposits(surface, &points, coat);
     let upright: Vec<&Deposit> = left.iter().collect();
     let film = film_of(&left, surface.points.len());

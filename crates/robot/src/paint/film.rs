@@ -34,8 +34,8 @@ const MAX_MISSED_SHARE: f64 = 0.1;
 const MIN_DOUBLE_SHARE: f64 = 1.8;
 /// Bars of the histogram, a tenth of the target each; the last includes all that is thicker.
 const NUM_BARS: usize = 20;
-/// Angle beyond the tilt limit up to which a surface still counts as reachable: cos 30° is 0.87 of the film.
-const REACHABLE_ANGLE_RAD: f64 = FRAC_PI_6;
+/// Angle beyond the tilt limit up to which a surface still counts as paintable: cos 30° is 0.87 of the film.
+const PAINTABLE_ANGLE_RAD: f64 = FRAC_PI_6;
 /// Step between the tilts that are tried, radians, and number of directions of each.
 const TILT_STEP_RAD: f64 = PI / 36.0;
 const NUM_TURNS: u32 = 24;
@@ -48,18 +48,18 @@ pub struct Film {
     /// Thickness at each point of the surface, metres.
     pub thickness: Vec<f64>,
     /// True for points that the gun can face with nothing in between, and that are not kept out.
-    pub is_reachable: Vec<bool>,
+    pub is_paintable: Vec<bool>,
     /// Figures of the film.
     pub figures: FilmFigures,
     /// Figures of the path.
     pub path: PathFigures,
 }
 
-/// Figures of a film. Shares are of the reachable area.
+/// Figures of a film. Shares are of the paintable area.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FilmFigures {
     /// Share of the surface's area that the gun can face with nothing in between, and that is not kept out.
-    pub reachable: f64,
+    pub paintable: f64,
     /// Share within the tolerance of the target.
     pub within: f64,
     /// Share with less than a tenth of the target.
@@ -137,11 +137,11 @@ pub fn simulate(
             .zip(sum)
             .for_each(|(all, part)| *all += part);
     }
-    let is_reachable = are_reachable(surface, coat, keep_outs);
+    let is_paintable = are_paintable(surface, coat, keep_outs);
     let seconds_on: f64 = steps.iter().map(|step| step.seconds).sum();
     let stays = thickness.iter().sum::<f64>() * surface.point_area;
     Ok(Film {
-        figures: FilmFigures::of(&thickness, &is_reachable, coat)?,
+        figures: FilmFigures::of(&thickness, &is_paintable, coat)?,
         path: PathFigures {
             paint: coat.gun.flow * seconds_on,
             landed: stays / (coat.gun.flow * coat.gun.solids * seconds_on),
@@ -149,23 +149,23 @@ pub fn simulate(
             length,
         },
         thickness,
-        is_reachable,
+        is_paintable,
     })
 }
 
 /// Returns for each point of the surface whether a gun within the tilt limit can face it with nothing in between, and it
 /// is not kept out.
-pub(super) fn are_reachable(
+pub(super) fn are_paintable(
     surface: &PaintSurface,
     coat: &Coat,
     keep_outs: &[KeepOut],
 ) -> Vec<bool> {
-    let least = (coat.tilt_limit + REACHABLE_ANGLE_RAD).cos();
+    let least = (coat.tilt_limit + PAINTABLE_ANGLE_RAD).cos();
     let kept_out = are_kept_out(surface, keep_outs);
     let is_wanted = |i: &usize| surface.normals[*i].dot(&surface.side) >= least && !kept_out[*i];
     let mut waiting: Vec<usize> = (0..surface.points.len()).filter(is_wanted).collect();
-    let mut are_reachable = vec![false; surface.points.len()];
-    let least = (REACHABLE_ANGLE_RAD + TILT_SLACK_RAD).cos();
+    let mut are_paintable = vec![false; surface.points.len()];
+    let least = (PAINTABLE_ANGLE_RAD + TILT_SLACK_RAD).cos();
     for direction in tilts(&surface.side, coat.tilt_limit) {
         let faces = |i: &usize| surface.normals[*i].dot(&direction) >= least;
         if !waiting.iter().any(faces) {
@@ -173,11 +173,11 @@ pub(super) fn are_reachable(
         }
         let view = ViewFromAfar::new(surface, &direction);
         waiting.retain(|i| {
-            are_reachable[*i] = faces(i) && view.sees(*i, coat.stand_off);
-            !are_reachable[*i]
+            are_paintable[*i] = faces(i) && view.sees(*i, coat.stand_off);
+            !are_paintable[*i]
         });
     }
-    are_reachable
+    are_paintable
 }
 
 /// Directions towards guns that are tilted by at most the limit, the upright one first.
@@ -361,10 +361,10 @@ fn corners_of(surface: &PaintSurface) -> [Point3<f64>; 8] {
 }
 
 impl FilmFigures {
-    fn of(thickness: &[f64], is_reachable: &[bool], coat: &Coat) -> Result<Self, PaintError> {
+    fn of(thickness: &[f64], is_paintable: &[bool], coat: &Coat) -> Result<Self, PaintError> {
         let reached: Vec<f64> = thickness
             .iter()
-            .zip(is_reachable)
+            .zip(is_paintable)
             .filter(|(_, is)| **is)
             .map(|(t, _)| *t)
             .collect();
@@ -381,7 +381,7 @@ impl FilmFigures {
             histogram[bar.min(NUM_BARS - 1)] += 1.0 / num;
         }
         Ok(Self {
-            reachable: num / thickness.len() as f64,
+            paintable: num / thickness.len() as f64,
             within: share(&|t| (t - 1.0).abs() <= coat.tolerance),
             missed: share(&|t| t < MAX_MISSED_SHARE),
             double: share(&|t| t > MIN_DOUBLE_SHARE),

@@ -2,7 +2,7 @@
 
 use super::{
     coat::Coat,
-    film::{are_reachable, deposits},
+    film::{are_paintable, deposits},
     surface::PaintSurface,
 };
 use crate::arm::FilmRoom;
@@ -43,9 +43,9 @@ fn room_of(path: &SprayPath, surface: &PaintSurface, coat: &Coat) -> FilmRoom {
         film[*point as usize] += f64::from(*thickness);
     }
     let most = coat.target * (1.0 + coat.tolerance);
-    let room = film.iter().zip(are_reachable(surface, coat, &[]));
-    let room = room.map(|(thickness, is_reachable)| match most - thickness {
-        _ if !is_reachable => f64::INFINITY,
+    let room = film.iter().zip(are_paintable(surface, coat, &[]));
+    let room = room.map(|(thickness, is_paintable)| match most - thickness {
+        _ if !is_paintable => f64::INFINITY,
         left if left < 0.0 => coat.target * THICK_ROOM_SHARE,
         left => (left - coat.target * ROUNDING_SHARE).max(0.0),
     });

@@ -16,9 +16,9 @@ use inspection::library::SprayPath;
 
 /// Spacings to be tried, as shares of the pattern's width at the stand-off, the fastest first.
 const SPACING_SHARES: [f64; 4] = [0.4, 0.35, 0.3, 0.25];
-/// Share of the reachable area within the tolerance that is good enough.
+/// Share of the paintable area within the tolerance that is good enough.
 pub(super) const GOOD_WITHIN: f64 = 0.95;
-/// Share of the reachable area that may be lost for a mean nearer to the target.
+/// Share of the paintable area that may be lost for a mean nearer to the target.
 const MAX_LOST_SHARE: f64 = 0.005;
 /// Range of a coat's speed, m/s.
 pub(super) const SPEED_RANGE_M_S: [f64; 2] = [0.01, 3.0];
@@ -34,7 +34,7 @@ pub struct Proposal {
     pub film: Film,
 }
 
-/// Proposes the widest spacing that brings 95 % of the reachable area within the tolerance, else the one that brings
+/// Proposes the widest spacing that brings 95 % of the paintable area within the tolerance, else the one that brings
 /// most.
 pub fn propose(
     surface: &PaintSurface,
@@ -70,15 +70,15 @@ pub fn propose(
 
 /// Returns the speed that brings most of a film within the coat's tolerance, m/s.
 pub fn best_speed(film: &Film, coat: &Coat) -> f64 {
-    let factor = best_factor(&film.thickness, &film.is_reachable, coat);
+    let factor = best_factor(&film.thickness, &film.is_paintable, coat);
     (coat.speed / factor).clamp(SPEED_RANGE_M_S[0], SPEED_RANGE_M_S[1])
 }
 
-/// Returns the factor on all thicknesses that brings most of the reachable points within the tolerance. If more than
+/// Returns the factor on all thicknesses that brings most of the paintable points within the tolerance. If more than
 /// enough are within it, the factor moves towards a mean at the target: a film at the upper end of its tolerance wastes
 /// paint.
-pub(super) fn best_factor(thickness: &[f64], is_reachable: &[bool], coat: &Coat) -> f64 {
-    let each = thickness.iter().zip(is_reachable);
+pub(super) fn best_factor(thickness: &[f64], is_paintable: &[bool], coat: &Coat) -> f64 {
+    let each = thickness.iter().zip(is_paintable);
     let mut reached: Vec<f64> = each.filter(|(_, is)| **is).map(|(t, _)| *t).collect();
     reached.sort_by(f64::total_cmp);
     let [low, high] = [1.0 - coat.tolerance, 1.0 + coat.tolerance];

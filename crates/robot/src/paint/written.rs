@@ -17,7 +17,7 @@ use inspection::library::{PathPoint, Side, SprayPath};
 use stages::reference::Coverage;
 use texts::{Described, Message};
 
-/// Least share of the reachable surface within the tolerance for a film to be good.
+/// Least share of the paintable surface within the tolerance for a film to be good.
 pub const LEAST_WITHIN: f64 = 0.9;
 /// Largest loss of that share which is no reason for a doubt about a program of a path that is below the limit itself.
 const MAX_LOST_SHARE: f64 = 0.05;

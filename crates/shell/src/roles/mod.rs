@@ -201,6 +201,7 @@ fn needs_engineer(action: &Action, has_pin: bool) -> bool {
         | Action::UseAnswering(_)
         | Action::UseProgramSetup(_)
         | Action::UseServoSettings(_)
+        | Action::ShowPaintTab(_)
         | Action::LibraryChanged { .. }
         | Action::Inspect { .. }
         | Action::InspectShown { .. }

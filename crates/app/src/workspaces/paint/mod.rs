@@ -1,12 +1,12 @@
 //! Paint, the engineer's: a spray path over an enrolled part, the film that it leaves, and the gun along it.
 //!
 //! ```text
-//! side      part, coat, figures of the film       parameters from the coat's table
-//! tools     pattern, regions, undo
+//! side      part and results, the tabs: the coat with every parameter of its table, the figures of the film
+//! tools     undo, view; pattern, regions
 //! view      the part by its film, rows, the gun   region: what is drawn becomes a region
 //! timeline  the path over time
 //! state     what is shown, asked for and stored   work: plan, simulate, store; when the gun is where
-//! robot     arm and gun of its programs           reach: which points the arm reaches, and the program
+//! robot     the tab: arm and gun of its programs  reach: which points the arm reaches, and the program
 //! design    what is painted how, and its undo     its coat: chosen, changed, saved
 //! ```
 

@@ -1,11 +1,11 @@
-//! The section on the robot: arm, nozzle and gun of its programs, what they stay clear of, and which points of the path the
-//! arm reaches.
+//! The tab of the robot: arm, nozzle and gun of its programs, what they stay clear of, and which points of the path the arm
+//! reaches.
 
 use egui::{Button, DragValue, Key, Label, RichText, Role, Ui, WidgetInfo};
 
 use super::{
     reach::Reach,
-    side::{TITLE, menu},
+    side::{self, TITLE, menu},
     state::PaintState,
 };
 use crate::workspaces::paint::state::{PaintAction, PaintFile};
@@ -21,10 +21,10 @@ use ui::{
     language::{parameters, text},
     parameter_control::fold,
     theme::Theme,
-    widgets::{grouped, heading, labelled, line_edit, row, shortened, text_button},
+    widgets::{Mark, grouped, heading, labelled, line_edit, row, shortened, text_button},
 };
 
-/// Draws the section.
+/// Draws the tab.
 pub(super) fn ui(
     ui: &mut Ui,
     paint: &PaintState,
@@ -32,7 +32,7 @@ pub(super) fn ui(
     actions: &mut Vec<PaintAction>,
 ) {
     let theme = Theme::of(ui);
-    heading(ui, &text!("paint-robot"));
+    heading(ui, &text!("paint-arm-group"));
     let mut setup = session.program.clone();
     arm_ui(ui, &mut setup, actions);
     let label = text!("paint-nozzle");
@@ -53,6 +53,9 @@ pub(super) fn ui(
         });
         base_ui(ui, &mut setup);
     }
+    // A scope for the same reason.
+    ui.scope(|ui| reach_ui(ui, paint, session, actions));
+    heading(ui, &text!("paint-cell-group"));
     obstacles_ui(ui, &mut setup, actions);
     fold(ui, text!("paint-more-robot"), theme.weak_text)
         .id_salt("robot")
@@ -69,11 +72,16 @@ pub(super) fn ui(
     if setup != session.program {
         actions.push(PaintAction::SetUp(setup));
     }
+}
+
+/// Draws the group on the reach: that the cell must be calibrated for it, or what was found.
+fn reach_ui(ui: &mut Ui, paint: &PaintState, session: &Session, actions: &mut Vec<PaintAction>) {
+    let theme = Theme::of(ui);
     if session.robot.is_none() {
+        heading(ui, &text!("paint-reach-group"));
         note(ui, &text!("paint-not-calibrated"), theme.weak_text);
-        return;
-    }
-    if let Some(Ok(reach)) = paint.reach(session) {
+    } else if let Some(Ok(reach)) = paint.reach(session) {
+        heading(ui, &text!("paint-reach-group"));
         reasons(ui, reach, &session.program, actions);
     }
 }
@@ -186,29 +194,49 @@ fn field(ui: &mut Ui, label: &str, text: &mut String, example: &str) -> egui::Re
         .labelled_by(name.id)
 }
 
-/// Draws in one line how much of the path the arm reaches, or that it is not checked without an arm; nothing while it is
-/// being checked.
+/// Draws the share of the path that the arm reaches, or that it is not known. Without an arm and a calibrated cell, nothing is
+/// asked of one.
 pub(super) fn verdict(ui: &mut Ui, paint: &PaintState, session: &Session) {
-    let theme = Theme::of(ui);
-    if session.program.arm.is_none() && session.robot.is_some() {
-        if let Some(words) = not_checked(&Unchecked::of_arm(None)) {
-            note(ui, &words, theme.warning);
+    if session.program.arm.is_none() {
+        let words = not_checked(&Unchecked::of_arm(None));
+        if let Some(words) = words.filter(|_| session.robot.is_some()) {
+            side::verdict(ui, Mark::Look, &words);
         }
         return;
     }
     let Some(Ok(reach)) = paint.reach(session) else {
+        if paint.reach_task.running().is_some() {
+            side::verdict(ui, Mark::Open, &text!("paint-checking-reach"));
+            return;
+        }
+        let shown = side::verdict(ui, Mark::Look, &text!("paint-arm-not-checked"));
+        if let Some(Err(error)) = paint.reach(session) {
+            shown.on_hover_text(&error.what);
+        }
         return;
     };
     let (num, all) = (reach.check.num_reached(), reach.check.points.len());
-    let (arm, missed) = (reach.arm.as_str(), grouped(all - num));
-    if num == all {
-        let words = text!("paint-reaches-all", arm = arm, all = grouped(all));
-        note(ui, &words, theme.accepted);
+    let (sign, words) = if num == all {
+        (
+            Mark::Good,
+            text!("paint-arm-reaches-all", all = grouped(all)),
+        )
     } else {
-        let all = grouped(all);
-        let words = text!("paint-reaches-some", arm = arm, missed = missed, all = all);
-        note(ui, &words, theme.rejected);
-    }
+        let words = text!(
+            "paint-arm-reaches-some",
+            share = floor_percent(num, all),
+            missed = grouped(all - num),
+            all = grouped(all)
+        );
+        (Mark::Bad, words)
+    };
+    side::verdict(ui, sign, &words).on_hover_text(text!("paint-arm-reaches-hint"));
+}
+
+/// Writes the share of `num` in `all` in per cent, rounded down: only all of them are 100 %.
+fn floor_percent(num: usize, all: usize) -> String {
+    let tenths = 1000 * num / all.max(1);
+    format!("{}.{}", tenths / 10, tenths % 10)
 }
 
 /// Draws why points are not reached, and positions that reach more.
@@ -322,5 +350,12 @@ mod tests {
     fn a_shift_names_the_axes_along_which_it_moves() {
         assert_eq!(moved_by([0.2, 0.0, -0.1]), "X +200, Z -100");
         assert_eq!(moved_by([-0.0, 0.35, 1e-7]), "Y +350");
+    }
+
+    #[test]
+    fn a_path_that_is_not_reached_completely_is_never_reached_to_100_per_cent() {
+        assert_eq!(floor_percent(9999, 10_000), "99.9");
+        assert_eq!(floor_percent(0, 7), "0.0");
+        assert_eq!(floor_percent(7, 7), "100.0");
     }
 }

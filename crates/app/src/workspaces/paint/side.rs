@@ -1,11 +1,11 @@
-//! On the right: the part, its coat with every parameter, the figures of the film, and what can be done with the path.
+//! On the right: the part with its two results, the tabs, and what can be done with the path.
 
 use egui::{
-    Button, CentralPanel, Id, IntoAtoms, Label, Panel, Popup, Rect, Response, RichText, ScrollArea,
-    Sense, Ui, WidgetInfo, pos2, vec2,
+    Button, Frame, Id, IntoAtoms, Label, Panel, Popup, Rect, Response, RichText, ScrollArea, Sense,
+    Ui, UiBuilder, WidgetInfo, pos2, vec2,
 };
 
-use super::{robot, state::PaintState, timeline::minutes, work::Planned};
+use super::{robot, state::PaintState, timeline::minutes, tools, work::Planned};
 use crate::{
     shared::panel_frame,
     workspaces::paint::state::{PaintAction, PaintFile, ShownPath},
@@ -15,20 +15,28 @@ use inspection::{
     library::Side,
     pipeline::parameters::{Parameters as _, Place},
 };
-use shell::{language::painted_from, session::Session};
+use shell::{
+    language::painted_from,
+    session::{PaintTab, Session},
+};
 use stages::reference::Coverage;
 use ui::{
     language::{parameters, text, within_sentence},
     parameter_control::{self, fold},
     theme::{Theme, font, space},
-    tool_row::choice,
-    widgets::{grouped, heading, line_edit, menu_list, row, shortened, text_button},
+    tool_row::{choice, tab_row},
+    widgets::{
+        Mark, grouped, heading, line_edit, line_mark, menu_list, row, shortened, text_button,
+    },
 };
 
 /// Characters of a part's title on its menu.
 pub(super) const TITLE: usize = 26;
 
-/// Draws the panel.
+/// Room above and below the buttons for the path, logical pixels.
+const BUTTON_MARGINS: [i8; 2] = [8, 12];
+
+/// Draws the panel, from top to bottom: the key focus moves in the order in which controls are drawn.
 pub(super) fn ui(
     ui: &mut Ui,
     paint: &PaintState,
@@ -37,35 +45,63 @@ pub(super) fn ui(
 ) {
     let theme = Theme::of(ui);
     let frame = |top, bottom| panel_frame(theme, top, bottom);
-    Panel::bottom("paint actions")
-        .resizable(false)
-        .frame(frame(8, 12))
-        .show(ui, |ui| buttons(ui, paint, session, actions));
     Panel::top("paint head")
         .resizable(false)
         .frame(frame(12, 4))
         .show(ui, |ui| head(ui, paint, session, actions));
-    CentralPanel::default().frame(frame(0, 4)).show(ui, |ui| {
-        ScrollArea::vertical()
-            .id_salt("coat")
-            .auto_shrink(false)
-            .show(ui, |ui| {
-                ui.set_max_width(ui.available_width() - 8.0);
-                coat(ui, paint, actions);
-                if let Some(planned) = &paint.planned {
-                    ui.scope(|ui| {
-                        if paint.is_old(session) {
-                            ui.multiply_opacity(0.55);
-                        }
-                        check(ui, planned);
-                    });
-                }
-                robot::ui(ui, paint, session, actions);
-            });
+    // Without margins at the sides: titles are long in some languages.
+    let shown = session.paint_tab;
+    let tabs = PaintTab::ALL.map(|tab| (tab, tab_title(tab)));
+    Panel::top("paint tabs")
+        .resizable(false)
+        .frame(Frame::new().fill(theme.panel))
+        .show(ui, |ui| {
+            if let Some(tab) = tab_row(ui, &tabs, shown) {
+                actions.push(PaintAction::ShowTab(tab));
+            }
+        });
+    let [above, below] = BUTTON_MARGINS;
+    let num_rows = if paint.stored(session).is_some() {
+        3.0
+    } else {
+        2.0
+    };
+    let height = num_rows * space::TARGET + (num_rows - 1.0) * ui.spacing().item_spacing.y;
+    let room = ui.available_rect_before_wrap();
+    let bottom = room.bottom() - height - f32::from(above) - f32::from(below);
+    ui.scope_builder(UiBuilder::new().max_rect(room.with_max_y(bottom)), |ui| {
+        frame(0, 4).show(ui, |ui| {
+            ScrollArea::vertical()
+                .id_salt(shown)
+                .auto_shrink(false)
+                .show(ui, |ui| {
+                    ui.set_max_width(ui.available_width() - 8.0);
+                    match shown {
+                        PaintTab::Coat => coat(ui, paint, actions),
+                        PaintTab::Regions => tools::regions(ui, paint, actions),
+                        PaintTab::Robot => robot::ui(ui, paint, session, actions),
+                        PaintTab::Film => film(ui, paint, session),
+                    }
+                });
+        });
     });
+    ui.scope_builder(UiBuilder::new().max_rect(room.with_min_y(bottom)), |ui| {
+        frame(above, below).show(ui, |ui| buttons(ui, paint, session, actions));
+    });
+    let painter = ui.painter();
+    painter.hline(room.x_range(), bottom, theme.edge_stroke());
 }
 
-/// Draws the part, and whether its film is good.
+fn tab_title(tab: PaintTab) -> String {
+    match tab {
+        PaintTab::Coat => text!("paint-coat"),
+        PaintTab::Regions => text!("paint-regions"),
+        PaintTab::Robot => text!("paint-robot"),
+        PaintTab::Film => parameters::coat_group(CoatGroup::Film),
+    }
+}
+
+/// Draws the part, and whether its film is good and the arm reaches its path.
 fn head(ui: &mut Ui, paint: &PaintState, session: &Session, actions: &mut Vec<PaintAction>) {
     let theme = Theme::of(ui);
     let Some(library) = &session.library else {
@@ -123,27 +159,7 @@ fn head(ui: &mut Ui, paint: &PaintState, session: &Session, actions: &mut Vec<Pa
         return;
     };
     let is_old = paint.is_old(session);
-    let (figures, coat) = (&planned.film.figures, &planned.coat);
-    let colour = if figures.within >= LEAST_WITHIN {
-        theme.accepted
-    } else {
-        theme.rejected
-    };
-    let micrometres = |metres: f64| format!("{:.0}", 1e6 * metres);
-    let text = text!(
-        "paint-within",
-        share = percent(figures.within),
-        target = micrometres(coat.target),
-        tolerance = micrometres(coat.target * coat.tolerance)
-    );
-    ui.scope(|ui| {
-        if is_old {
-            ui.multiply_opacity(0.55);
-        }
-        ui.label(RichText::new(text).font(font::body_strong()).color(colour));
-        robot::verdict(ui, paint, session);
-        histogram(ui, figures, coat.tolerance);
-    });
+    dimmed(ui, is_old, |ui| film_verdict(ui, planned));
     // In place of the scope, so that nothing below moves while a parameter is changed.
     let note = if is_old {
         RichText::new(text!("paint-previous-path")).color(theme.warning)
@@ -156,6 +172,50 @@ fn head(ui: &mut Ui, paint: &PaintState, session: &Session, actions: &mut Vec<Pa
         RichText::new(scope).weak()
     };
     ui.add(Label::new(note.small()).wrap());
+    dimmed(ui, is_old, |ui| robot::verdict(ui, paint, session));
+}
+
+/// Draws what belongs to a former path dimmed.
+fn dimmed(ui: &mut Ui, is_old: bool, content: impl FnOnce(&mut Ui)) {
+    ui.scope(|ui| {
+        if is_old {
+            ui.multiply_opacity(0.55);
+        }
+        content(ui);
+    });
+}
+
+/// Draws the share of the surface whose film is within the coat's tolerance.
+fn film_verdict(ui: &mut Ui, planned: &Planned) {
+    let (film, coat) = (&planned.film.figures, &planned.coat);
+    let sign = if film.within >= LEAST_WITHIN {
+        Mark::Good
+    } else {
+        Mark::Bad
+    };
+    let micrometres = |metres: f64| format!("{:.0}", 1e6 * metres);
+    let words = text!(
+        "paint-film-within",
+        share = percent(film.within),
+        target = micrometres(coat.target),
+        tolerance = micrometres(coat.target * coat.tolerance)
+    );
+    let least = format!("{:.0}", 100.0 * LEAST_WITHIN);
+    verdict(ui, sign, &words).on_hover_text(text!("paint-film-within-hint", least = least));
+}
+
+/// Draws a result with a mark that shows whether it keeps to its limit.
+pub(super) fn verdict(ui: &mut Ui, sign: Mark, words: &str) -> Response {
+    let colour = sign.colour(Theme::of(ui));
+    let shown = ui.horizontal_top(|ui| {
+        line_mark(ui, 18.0, 7.0, sign);
+        ui.vertical(|ui| {
+            let text = RichText::new(words).font(font::body_strong()).color(colour);
+            ui.add(Label::new(text).wrap())
+        })
+        .inner
+    });
+    shown.inner
 }
 
 /// Draws the side that a part known all around is painted from, as a menu of all sides.
@@ -180,10 +240,10 @@ fn side_menu(
     });
 }
 
-/// Draws the coat: its name and every parameter.
+/// Draws the tab of the coat: its name and every parameter.
 fn coat(ui: &mut Ui, paint: &PaintState, actions: &mut Vec<PaintAction>) {
     let design = &paint.design;
-    heading(ui, &text!("paint-coat"));
+    ui.add_space(space::SMALL);
     ui.horizontal(|ui| {
         let kept = design.kept.name.as_str();
         let name = if design.is_coat_changed() {
@@ -214,6 +274,7 @@ fn coat(ui: &mut Ui, paint: &PaintState, actions: &mut Vec<PaintAction>) {
     if let Some(naming) = &paint.naming {
         name_ui(ui, naming, actions);
     }
+    tools::pattern(ui, paint, actions);
     // Most frequently changed first.
     for group in [CoatGroup::Path, CoatGroup::Film, CoatGroup::Gun] {
         parameters_of(ui, group, paint, actions);
@@ -275,8 +336,7 @@ fn parameters_of(
     actions: &mut Vec<PaintAction>,
 ) {
     let theme = Theme::of(ui);
-    // The pattern is in the row of tools.
-    let is_here = |key: &str| key != "pattern";
+    let is_here = |key: &str| key != tools::PATTERN;
     let of = |place: Place| {
         let all = Coat::ALL.iter();
         all.filter(move |p| p.group == group && p.place == place && is_here(p.key))
@@ -307,12 +367,15 @@ fn parameters_of(
         });
 }
 
-/// Draws the figures of the film.
-fn check(ui: &mut Ui, planned: &Planned) {
-    heading(ui, &parameters::coat_group(CoatGroup::Film));
+/// Draws the tab of the film: its figures, and those of the path that leaves it.
+fn film(ui: &mut Ui, paint: &PaintState, session: &Session) {
+    let Some(planned) = &paint.planned else {
+        return;
+    };
     let (film, takes) = (&planned.film.figures, &planned.film.path);
     let micrometres = |metres: f64| format!("{:.1}", 1e6 * metres);
-    for (name, value) in [
+    let share = |share: f64| format!("{} %", percent(share));
+    let of_film = [
         (
             text!("paint-thinnest-thickest"),
             format!("{} · {} µm", micrometres(film.min), micrometres(film.max)),
@@ -321,21 +384,26 @@ fn check(ui: &mut Ui, planned: &Planned) {
             text!("paint-mean"),
             format!("{} µm", micrometres(film.mean)),
         ),
-        (text!("paint-missed"), format!("{} %", percent(film.missed))),
-        (text!("paint-double"), format!("{} %", percent(film.double))),
-        (
-            text!("paint-faced"),
-            format!("{} %", percent(film.reachable)),
-        ),
-        (
-            text!("paint-landed"),
-            format!("{} %", percent(takes.landed)),
-        ),
+        (text!("paint-missed"), share(film.missed)),
+        (text!("paint-double"), share(film.double)),
+        (text!("paint-paintable"), share(film.paintable)),
+    ];
+    let of_path = [
+        (text!("paint-landed"), share(takes.landed)),
         (text!("paint-time"), minutes(takes.time)),
         (text!("paint-points"), grouped(planned.path.points().len())),
-    ] {
-        row(ui, &name, &value);
-    }
+    ];
+    dimmed(ui, paint.is_old(session), |ui| {
+        heading(ui, &text!("paint-histogram"));
+        histogram(ui, film, planned.coat.tolerance);
+        for (name, value) in of_film {
+            row(ui, &name, &value);
+        }
+        heading(ui, &parameters::coat_group(CoatGroup::Path));
+        for (name, value) in of_path {
+            row(ui, &name, &value);
+        }
+    });
 }
 
 /// Draws the shares of the surface by thickness; those within tolerance are highlighted.

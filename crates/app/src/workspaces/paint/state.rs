@@ -6,7 +6,7 @@ use crate::workspaces::paint::{
     design::{Design, Step},
     reach::{Reach, ReachRequest},
     region::PaintTool,
-    work::{self, PaintResult, Planned, Request},
+    work::{self, PaintResult, Planned, Request, UnpaintedPart},
 };
 use inspection::{
     library::{PartMeta, PartName, Side, SprayPath},
@@ -19,7 +19,7 @@ use shell::{
     file_dialog::{FileChoice, FileDialog, FileRequest, all_files, program_files},
     inspection::source::file_name,
     notice::{Notice, NoticeTopic},
-    session::{Session, WorkspaceKind},
+    session::{PaintTab, Session, WorkspaceKind},
     workspace::ShellContext,
 };
 use ui::{
@@ -40,6 +40,8 @@ pub struct PaintState {
     pub shown_path: ShownPath,
     /// The last path of the part to paint, with its film and input.
     pub planned: Option<Arc<Planned>>,
+    /// The part to paint, until its first path is planned.
+    pub(super) unpainted: Option<Arc<UnpaintedPart>>,
     /// Why there is no path for the last request.
     pub failed: Option<UserError>,
     /// What a left drag does.
@@ -86,6 +88,7 @@ impl PaintState {
             },
             shown_path: ShownPath::default(),
             planned: None,
+            unpainted: None,
             failed: None,
             tool: PaintTool::default(),
             is_film_shown: true,
@@ -149,7 +152,12 @@ impl PaintState {
 
     /// True while a path is planned or proposed.
     pub fn is_planning(&self) -> bool {
-        self.task.running().is_some()
+        self.planning().is_some()
+    }
+
+    /// The job that plans or proposes a path, if any.
+    pub(super) fn planning(&self) -> Option<&Running> {
+        self.task.running()
     }
 
     /// True while the shown path does not match the present request, even if its planning was cancelled.
@@ -168,13 +176,16 @@ impl PaintState {
         let is_other = |known: &PartName| part.is_none_or(|part| part.name != *known);
         let planned = self.planned.as_ref();
         let is_planned = planned.is_some_and(|planned| is_other(&planned.part));
+        let unpainted = self.unpainted.as_ref();
+        let is_unpainted = unpainted.is_some_and(|unpainted| is_other(&unpainted.part));
         let asked = self.asked.as_ref();
         let is_asked = asked.is_some_and(|asked| {
             is_other(&asked.part) || part.is_none_or(|part| part.cloud != asked.cloud)
         });
-        if is_planned || is_asked {
+        if is_planned || is_unpainted || is_asked {
             self.task.cancel();
             self.planned = None;
+            self.unpainted = None;
             self.failed = None;
             self.asked = None;
             self.answered = None;
@@ -253,7 +264,13 @@ impl PaintState {
             }
             PaintAction::SaveCoat => self.save_coat(cx),
             PaintAction::Show(path) => self.shown_path = path,
-            PaintAction::Use(tool) => self.tool = tool,
+            PaintAction::ShowTab(tab) => cx.send(Action::ShowPaintTab(tab)),
+            PaintAction::Use(tool) => {
+                self.tool = tool;
+                if tool != PaintTool::Look {
+                    cx.send(Action::ShowPaintTab(PaintTab::Regions));
+                }
+            }
             PaintAction::Add(regions) => self.add(regions, cx.session),
             PaintAction::Edit(edit) => self.draw(cx.session, |design| design.edits.push(edit)),
             PaintAction::Clear => self.change(Design::clear),
@@ -385,13 +402,21 @@ impl PaintState {
         } else {
             text!("paint-planning")
         };
+        let is_unseen = self.planned.is_none() && self.unpainted.is_none();
         self.task.start(title, move |context| {
+            if is_unseen {
+                context.partial(work::unpainted(&request.part, &library_cache)?);
+            }
             work::planned(&request, is_proposal, &library_cache, context)
         });
     }
 
     /// Takes in the results of the tasks and of the file dialog, and plans if needed.
     pub fn update(&mut self, cx: &mut ShellContext<'_>) {
+        if cx.session.paint_tab != PaintTab::Regions {
+            // A drag draws only while the tools for it are in sight.
+            self.tool = PaintTool::Look;
+        }
         self.follow_part(cx);
         while let Some(event) = self.task.poll() {
             match event {
@@ -438,6 +463,7 @@ impl PaintState {
 
     fn show(&mut self, planned: Arc<Planned>) {
         self.failed = None;
+        self.unpainted = None;
         self.planned = Some(planned);
         self.answered.clone_from(&self.asked);
         self.go_to(self.time);
@@ -445,6 +471,7 @@ impl PaintState {
 
     fn receive(&mut self, result: PaintResult, cx: &mut ShellContext<'_>) {
         match result {
+            PaintResult::Unpainted(part) => self.unpainted = Some(part),
             PaintResult::Planned(planned) => self.show(planned),
             PaintResult::Proposed(planned) => {
                 // Drop a proposal if the design has changed meanwhile.
@@ -521,7 +548,9 @@ pub enum PaintAction {
     SaveCoat,
     /// Choose the path to show.
     Show(ShownPath),
-    /// Choose what a left drag in the view does.
+    /// Show this tab.
+    ShowTab(PaintTab),
+    /// Choose what a left drag in the view does; the tab of the regions shows the tools for all but turning the view.
     Use(PaintTool),
     /// Add these regions; new areas to be painted join the earlier ones.
     Add(Vec<KeepOut>),

@@ -1,4 +1,4 @@
-//! Above the view: pattern of the rows, effect of a drag, undo, colours.
+//! The tools: steps and view above the view, the pattern and the regions in their tabs.
 
 use egui::Ui;
 
@@ -12,63 +12,68 @@ use robot::paint::Coat;
 use ui::{
     language::{parameters, text},
     parameter_control::ParameterChange,
-    tool_row::{Tool, tool_row},
+    theme::space,
+    tool_row::{Tool, tool_group, tool_row},
     viewport::DrawnShape,
+    widgets::button_if,
 };
 
-/// Draws the tools.
+/// Key of the pattern, the parameter that is a group of tools.
+pub(super) const PATTERN: &str = "pattern";
+
+/// Draws the tools above the view.
 pub(super) fn ui(ui: &mut Ui, paint: &PaintState, actions: &mut Vec<PaintAction>) {
-    let sets = vec![
-        vec![patterns(paint)],
-        vec![steps(paint), colours(paint)],
-        vec![regions(paint)],
-        vec![edits(paint)],
-    ];
+    let sets = vec![vec![steps(paint)], vec![view_tools(paint)]];
     tool_row(ui, sets, actions);
 }
 
-/// Choices of the pattern of the rows, the coat's parameter changed most often.
-fn patterns(paint: &PaintState) -> Vec<Tool<PaintAction>> {
-    const KEY: &str = "pattern";
-    let Some(parameter) = Parameter::<Coat>::of_key(KEY) else {
-        return Vec::new();
+/// Draws the choices of the pattern of the rows, the coat's parameter changed most often.
+pub(super) fn pattern(ui: &mut Ui, paint: &PaintState, actions: &mut Vec<PaintAction>) {
+    let Some(parameter) = Parameter::<Coat>::of_key(PATTERN) else {
+        return;
     };
+    let name = parameters::name(parameter);
     let chosen = parameter.value(&paint.design.coat) as usize;
     let options = parameters::options(parameter).into_iter().enumerate();
     let each = options.map(|(index, option)| Tool {
-        label: format!("{}: {option}", parameters::name(parameter)),
+        label: format!("{name}: {option}"),
         text: option,
         hint: Some(parameters::help(parameter)),
         is_chosen: index == chosen,
         is_enabled: true,
-        action: PaintAction::Change(KEY, ParameterChange::Set(index as f64)),
+        action: PaintAction::Change(PATTERN, ParameterChange::Set(index as f64)),
     });
-    each.collect()
+    tool_group(ui, &name, each.collect(), actions);
 }
 
-/// Tools by which a drag turns the view or draws a region.
-fn regions(paint: &PaintState) -> Vec<Tool<PaintAction>> {
-    let keep_out = text!("paint-keep-out-hint");
-    let only = text!("paint-only-hint");
-    let lasso = text!("view-lasso");
+/// Draws the tab of the regions: tools by which a drag draws a region or corrects the path, and the button that removes both.
+pub(super) fn regions(ui: &mut Ui, paint: &PaintState, actions: &mut Vec<PaintAction>) {
+    tool_group(ui, &text!("paint-keep-out"), keep_outs(paint), actions);
+    tool_group(ui, &text!("paint-only"), areas(paint), actions);
+    tool_group(ui, &text!("paint-by-hand"), edits(paint), actions);
+    ui.add_space(space::LARGE);
+    let clear = button_if(ui, paint.design.is_drawn_on(), &text!("paint-clear"));
+    if clear.on_hover_text(text!("paint-clear-hint")).clicked() {
+        actions.push(PaintAction::Clear);
+    }
+}
+
+/// Tools by which a drag draws what gets no paint.
+fn keep_outs(paint: &PaintState) -> Vec<Tool<PaintAction>> {
+    let outline = |shape| PaintTool::Outline(shape, RegionUse::KeepOut);
+    let around = text!("paint-keep-out-hint");
     let tools = [
         (
-            text!("view-rotate"),
-            text!("view-rotate"),
-            text!("view-rotate-hint"),
-            PaintTool::Look,
+            text!("paint-box"),
+            text!("paint-keep-out-box"),
+            around.clone(),
+            outline(DrawnShape::Box),
         ),
         (
-            text!("paint-keep-out-box"),
-            text!("paint-keep-out-box"),
-            keep_out.clone(),
-            PaintTool::Outline(DrawnShape::Box, RegionUse::KeepOut),
-        ),
-        (
-            lasso.clone(),
+            text!("view-lasso"),
             text!("paint-keep-out-lasso"),
-            keep_out,
-            PaintTool::Outline(DrawnShape::Lasso, RegionUse::KeepOut),
+            around,
+            outline(DrawnShape::Lasso),
         ),
         (
             text!("paint-brush"),
@@ -76,55 +81,56 @@ fn regions(paint: &PaintState) -> Vec<Tool<PaintAction>> {
             text!("paint-brush-hint"),
             PaintTool::Brush,
         ),
-        (
-            text!("paint-only-box"),
-            text!("paint-only-box"),
-            only.clone(),
-            PaintTool::Outline(DrawnShape::Box, RegionUse::PaintOnly),
-        ),
-        (
-            lasso,
-            text!("paint-only-lasso"),
-            only,
-            PaintTool::Outline(DrawnShape::Lasso, RegionUse::PaintOnly),
-        ),
     ];
     tools.map(|tool| drag_tool(paint, tool)).into()
 }
 
-/// Tools by which a drag corrects the path, and the one that clears corrections and regions.
+/// Tools by which a drag draws the only areas to be painted.
+fn areas(paint: &PaintState) -> Vec<Tool<PaintAction>> {
+    let tools = [
+        (
+            text!("paint-in-box"),
+            text!("paint-only-box"),
+            DrawnShape::Box,
+        ),
+        (
+            text!("paint-in-lasso"),
+            text!("paint-only-lasso"),
+            DrawnShape::Lasso,
+        ),
+    ];
+    tools
+        .map(|(text, label, shape)| {
+            let tool = PaintTool::Outline(shape, RegionUse::PaintOnly);
+            drag_tool(paint, (text, label, text!("paint-only-hint"), tool))
+        })
+        .into()
+}
+
+/// Tools by which a drag corrects the path.
 fn edits(paint: &PaintState) -> Vec<Tool<PaintAction>> {
     let tools = [
         (
             text!("paint-move-stroke"),
-            text!("paint-move-stroke"),
             text!("paint-move-stroke-hint"),
-            PaintTool::Edit(EditKind::Stroke),
+            EditKind::Stroke,
         ),
         (
-            text!("paint-point"),
             text!("paint-move-point"),
             text!("paint-move-point-hint"),
-            PaintTool::Edit(EditKind::Point),
+            EditKind::Point,
         ),
         (
             text!("paint-turn-gun"),
-            text!("paint-turn-gun"),
             text!("paint-turn-gun-hint"),
-            PaintTool::Edit(EditKind::Turn),
+            EditKind::Turn,
         ),
     ];
-    let mut each: Vec<_> = tools.map(|tool| drag_tool(paint, tool)).into();
-    let clear = text!("paint-clear");
-    each.push(Tool {
-        label: clear.clone(),
-        text: clear,
-        hint: Some(text!("paint-clear-hint")),
-        is_chosen: false,
-        is_enabled: paint.design.is_drawn_on(),
-        action: PaintAction::Clear,
-    });
-    each
+    tools
+        .map(|(text, hint, kind)| {
+            drag_tool(paint, (text.clone(), text, hint, PaintTool::Edit(kind)))
+        })
+        .into()
 }
 
 /// Makes a tool of its text, its label, its hint and the effect of a drag.
@@ -161,15 +167,23 @@ fn steps(paint: &PaintState) -> Vec<Tool<PaintAction>> {
     .collect()
 }
 
-/// Choice of the colours of the part.
-fn colours(paint: &PaintState) -> Vec<Tool<PaintAction>> {
-    let text = text!("paint-film-colours");
-    vec![Tool {
-        label: text.clone(),
-        text,
+/// The tool by which a drag turns the view, and the choice of the colours of the part.
+fn view_tools(paint: &PaintState) -> Vec<Tool<PaintAction>> {
+    let rotate = text!("view-rotate");
+    let rotate = (
+        rotate.clone(),
+        rotate,
+        text!("view-rotate-hint"),
+        PaintTool::Look,
+    );
+    let colours = text!("paint-film-colours");
+    let colours = Tool {
+        label: colours.clone(),
+        text: colours,
         hint: Some(text!("paint-film-colours-hint")),
         is_chosen: paint.is_film_shown,
         is_enabled: true,
         action: PaintAction::ToggleFilm,
-    }]
+    };
+    vec![drag_tool(paint, rotate), colours]
 }

@@ -18,6 +18,7 @@ use robot::paint::{KeepOut, PathEdit};
 use shell::session::{Session, ThemeChoice};
 use ui::{
     language::text,
+    task::Running,
     theme::space,
     viewport::{
         Colouring, DrawnShape, FitRequest, Legend, Line, LineSet, Role, ScaleWords, StandardView,
@@ -32,8 +33,8 @@ pub(super) struct PaintView {
     camera: ViewCamera,
     style: ViewStyle,
     styled: Option<ThemeChoice>,
-    /// The part that the camera was fitted to.
-    fitted: Option<PartName>,
+    /// The part that the camera was fitted to, and whether its path was there, too.
+    fitted: Option<(PartName, bool)>,
     /// The drawn gun, with its path and time.
     gun: Option<(Arc<Planned>, f64, Gun)>,
     /// True while it has the key focus.
@@ -86,11 +87,7 @@ impl PaintView {
             Legend::Shown
         };
         let scene = self.scene(paint, session);
-        let part = paint.planned.as_ref().map(|planned| &planned.part);
-        if part.is_some() && self.fitted.as_ref() != part {
-            self.fitted = part.cloned();
-            ViewDirection::From(StandardView::Front).apply(&mut self.camera);
-        }
+        self.fit(paint);
         self.viewport.tool = match (paint.tool, self.viewport.tool) {
             (PaintTool::Outline(shape, _), _) => ViewTool::Draw(shape),
             (PaintTool::Brush | PaintTool::Edit(_), _) => ViewTool::Draw(DrawnShape::Way),
@@ -115,7 +112,26 @@ impl PaintView {
             actions.extend(self.drawn(&way, planned, paint.tool, rect));
         }
         ViewDirection::buttons(ui, rect, &mut self.camera);
-        self.tool_overlay(ui, rect, paint);
+        match paint.planning().filter(|_| paint.planned.is_none()) {
+            Some(planning) => self.hint(ui, rect, in_progress(planning)),
+            None => self.tool_overlay(ui, rect, paint),
+        }
+    }
+
+    /// Turns to the front of another part and has all of it in view, also once its path is there, which extends beyond it.
+    fn fit(&mut self, paint: &PaintState) {
+        let (part, has_path) = match (&paint.planned, &paint.unpainted) {
+            (Some(planned), _) => (&planned.part, true),
+            (None, Some(unpainted)) => (&unpainted.part, false),
+            (None, None) => return,
+        };
+        let former = self.fitted.as_ref().filter(|(fitted, _)| fitted == part);
+        match former.map(|(_, had_path)| *had_path) {
+            None => ViewDirection::From(StandardView::Front).apply(&mut self.camera),
+            Some(false) if has_path => self.camera.request_fit(FitRequest::Everything),
+            Some(_) => return,
+        }
+        self.fitted = Some((part.clone(), has_path));
     }
 
     /// Returns the action for what was drawn; corners are fractions of the view.
@@ -247,9 +263,14 @@ impl PaintView {
         }
         // The hint would cover the part while a person draws.
         if corners.is_empty() {
-            let place = rect.with_min_y(rect.bottom() - 2.0 * space::TARGET);
-            drawing::hint(ui, place.shrink(space::SMALL), hint, colours);
+            self.hint(ui, rect, hint);
         }
+    }
+
+    /// Draws a hint at the bottom of the view.
+    fn hint(&self, ui: &mut Ui, rect: Rect, hint: String) {
+        let place = rect.with_min_y(rect.bottom() - 2.0 * space::TARGET);
+        drawing::hint(ui, place.shrink(space::SMALL), hint, &self.style.colours);
     }
 
     /// Approximate size of a length in logical pixels at the camera's target.
@@ -270,12 +291,17 @@ impl PaintView {
             }
             self.styled = Some(theme);
         }
+        // Enrolled parts are thinned; points of this size look closed from afar.
+        let look_closed = |spacing: f64| Metres(1.9 * spacing);
         let Some(planned) = &paint.planned else {
+            if let Some(unpainted) = &paint.unpainted {
+                self.style.point_size = look_closed(unpainted.spacing);
+            }
+            self.style.colouring = Colouring::Plain;
             return;
         };
         let coat = &planned.coat;
-        // Enrolled parts are thinned; points of this size look closed from afar.
-        self.style.point_size = Metres(1.9 * planned.surface.spacing);
+        self.style.point_size = look_closed(planned.surface.spacing);
         let range = SCALE * coat.tolerance * coat.target;
         self.style.deviation_range = Metres(range * MAGNIFIED);
         self.style.scale_words = ScaleWords::Film {
@@ -291,7 +317,11 @@ impl PaintView {
 
     fn scene(&mut self, paint: &PaintState, session: &Session) -> ViewScene {
         let Some(planned) = &paint.planned else {
-            return ViewScene::default();
+            let unpainted = paint.unpainted.iter();
+            return ViewScene {
+                points: unpainted.map(|part| part.points.clone()).collect(),
+                ..ViewScene::default()
+            };
         };
         let [on, off] = planned.marks.clone();
         let gun = self.gun(planned, paint.time, session);
@@ -318,6 +348,17 @@ impl PaintView {
         let gun = drawn_gun(planned, &state, session);
         self.gun = Some((Arc::clone(planned), time, gun.clone()));
         gun
+    }
+}
+
+/// Describes a running job and how far it is.
+fn in_progress(job: &Running) -> String {
+    let work = job.title.clone();
+    match job.progress {
+        Some((done, total)) => {
+            text!("shell-progress", work = work, done = done, total = total)
+        }
+        None => work,
     }
 }
 

@@ -10,7 +10,11 @@ use nalgebra::{Point3, Unit, Vector3};
 
 use crate::workspaces::paint::state::ShownPath;
 use files::write_text;
-use geometry::{cloud::PointCloud, error::lock};
+use geometry::{
+    cloud::PointCloud,
+    error::lock,
+    nearest::{KdTree, median_spacing},
+};
 use inspection::library::{FileCheck, PartMeta, PartName, Side, SprayPath};
 use robot::paint::{
     Coat, Film, KeepOut, PaintError, PaintSurface, PathEdit, edited, plan, propose, simulate,
@@ -68,9 +72,21 @@ pub struct Planned {
     pub(super) marks: [PointSet; 2],
 }
 
+/// A part as the view shows it until its first path is planned.
+#[derive(Debug)]
+pub(super) struct UnpaintedPart {
+    /// Name of the part.
+    pub(super) part: PartName,
+    /// Distance between neighbouring points, metres.
+    pub(super) spacing: f64,
+    pub(super) points: PointSet,
+}
+
 /// A result of a task.
 #[derive(Debug)]
 pub(super) enum PaintResult {
+    /// A part whose path is being planned.
+    Unpainted(Arc<UnpaintedPart>),
     /// A path and its film.
     Planned(Arc<Planned>),
     /// A path and its film for a coat whose spacing and speed were found.
@@ -97,6 +113,22 @@ pub(super) fn enrolled<'a>(
         what: text!("paint-no-such-part", part = part.as_str()),
         advice: text!("shell-choose-another-part"),
     })
+}
+
+/// Reads the points of a part that has no path yet.
+pub(super) fn unpainted(
+    part: &PartName,
+    library_cache: &LibraryCache,
+) -> Result<PaintResult, UserError> {
+    let loaded = library_cache.get();
+    let (_, reference) = enrolled(&loaded, part)?;
+    let points = &reference.cloud.points;
+    let positions: Vec<[f32; 3]> = points.iter().map(|p| [p.x, p.y, p.z]).collect();
+    Ok(PaintResult::Unpainted(Arc::new(UnpaintedPart {
+        part: part.clone(),
+        spacing: median_spacing(points, &KdTree::new(points)),
+        points: PointSet::new(positions, Role::Part).packed(),
+    })))
 }
 
 /// Plans or reads a path, and simulates its film.
@@ -210,6 +242,9 @@ fn known<J: PartialEq, R: Clone>(done: &mut [(J, R)], job: &J) -> Option<R> {
 impl PaintJob {
     fn paint(&self, context: &TaskContext<PaintResult>) -> Result<Painted, TaskError> {
         let (coat, regions) = (&self.coat, &self.regions);
+        let is_to_plan = self.stored.is_none() && !self.is_proposal;
+        let num_steps = if is_to_plan { 3 } else { 2 };
+        context.progress(1, num_steps);
         let surface = PaintSurface::of_cloud(&self.cloud, self.coverage, self.side);
         let surface = surface.map_err(|error| match error {
             PaintError::SideUnclear { .. } => UserError {
@@ -219,6 +254,7 @@ impl PaintJob {
             error => UserError::of(&error),
         })?;
         context.check()?;
+        context.progress(2, num_steps);
         let failed = |error| UserError::of(&error);
         let (coat, path, film) = if let Some(path) = &self.stored {
             let film = simulate(&surface, path, coat, regions).map_err(failed)?;
@@ -230,6 +266,7 @@ impl PaintJob {
             let path = plan(&surface, coat, regions).map_err(failed)?;
             let path = edited(path, &self.edits, coat.stand_off);
             context.check()?;
+            context.progress(3, num_steps);
             let film = simulate(&surface, &path, coat, regions).map_err(failed)?;
             (*coat, path, film)
         };
@@ -245,13 +282,13 @@ impl PaintJob {
 /// Scale of the film's deviations: a view keeps whole micrometres, and films are only some micrometres thick.
 pub(super) const MAGNIFIED: f64 = 1000.0;
 
-/// Returns the surface with the film's deviation from its target; keep-outs and what is not reachable have none.
+/// Returns the surface with the film's deviation from its target; keep-outs and what is not paintable have none.
 fn coloured(surface: &PaintSurface, film: &Film, coat: &Coat) -> PointSet {
     let positions: Vec<[f32; 3]> = surface.points.iter().map(|p| vec3(p).to_array()).collect();
-    let each = film.thickness.iter().zip(&film.is_reachable);
+    let each = film.thickness.iter().zip(&film.is_paintable);
     let off: Vec<f32> = each
-        .map(|(thickness, is_reachable)| {
-            if *is_reachable {
+        .map(|(thickness, is_paintable)| {
+            if *is_paintable {
                 (MAGNIFIED * (thickness - coat.target)) as f32
             } else {
                 f32::NAN

@@ -15,7 +15,7 @@ use shell::{
     cell::ServoSettings,
     file_dialog::{FileChoice, FileDialog, FileRequest, all_files},
     notice::Notice,
-    session::{Session, WorkspaceKind},
+    session::{PaintTab, Session, WorkspaceKind},
     workspace::ShellContext,
 };
 use simulate::PartKind;
@@ -109,6 +109,7 @@ impl ServoPageState {
                 cx.send(Action::UseServoSettings(setup));
             }
             ServoAction::GoToRobot => {
+                cx.send(Action::ShowPaintTab(PaintTab::Robot));
                 cx.send(Action::GoTo(WorkspaceKind::Paint));
             }
             ServoAction::Start => self.start(cx),

@@ -125,7 +125,7 @@ fn a_planned_path_covers_a_plate_to_its_edges_and_figures_add_up() {
     assert!(figures.within > 0.97, "{figures:?}");
     assert_eq!((figures.missed, figures.double), (0.0, 0.0));
     assert!((figures.histogram.iter().sum::<f64>() - 1.0).abs() < 1e-9);
-    assert!((figures.reachable - 1.0).abs() < 1e-9);
+    assert!((figures.paintable - 1.0).abs() < 1e-9);
     assert!(figures.min <= figures.mean && figures.mean <= figures.max);
     // The share that lands is the mean times the area, divided by what was sprayed.
     let area = surface.point_area * surface.points.len() as f64;
@@ -253,12 +253,12 @@ fn a_shelf_before_a_wall_takes_the_paint_that_the_wall_does_not_get() {
         stand_off: 0.05,
         ..coat
     };
-    let in_between = are_reachable(&shelved, &nearer, &[]);
+    let in_between = are_paintable(&shelved, &nearer, &[]);
     for (i, p) in shelved.points.iter().enumerate() {
         let from_middle = p.x.hypot(p.y);
         if p.z > 0.0 || !(0.1..0.135).contains(&from_middle) {
             let expected = p.z > 0.0 || from_middle > 0.12;
-            assert_eq!(shadowed.is_reachable[i], expected, "{p}");
+            assert_eq!(shadowed.is_paintable[i], expected, "{p}");
         }
         assert!(in_between[i], "{p}");
     }
