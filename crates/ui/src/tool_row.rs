@@ -119,15 +119,15 @@ fn width<A>(ui: &Ui, groups: &[Vec<Tool<A>>], gap: f32) -> f32 {
 pub fn tab_row<T: Copy + PartialEq>(ui: &mut Ui, tabs: &[(T, String)], shown: T) -> Option<T> {
     let theme = Theme::of(ui);
     let room = ui.available_width();
-    let titles = tabs.iter().map(|(_, title)| title);
     let widths_in = |font: &FontId| -> Vec<f32> {
-        let widths = titles.clone();
-        widths
+        let titles = tabs.iter().map(|(_, title)| title);
+        titles
             .map(|title| text_width(ui.painter(), title, font))
             .collect()
     };
     let rest = |widths: &[f32]| (room - widths.iter().sum::<f32>()) / tabs.len() as f32;
     let (mut typeface, mut widths) = (font::body(), widths_in(&font::body()));
+    // Long titles would touch each other.
     if rest(&widths) < 2.0 * space::MEDIUM {
         (typeface, widths) = (font::small(), widths_in(&font::small()));
     }

@@ -23,7 +23,7 @@ use shell::{
     cell::{CheckAction, RobotAction, RobotPage},
     rack::RackAction,
     roles::RoleAction,
-    session::WorkspaceKind,
+    session::{PaintTab, WorkspaceKind},
     source::live::{LiveAction, SourceState},
 };
 use ui::language::Language;
@@ -321,6 +321,7 @@ fn misfits(harness: &WindowHarness) -> Vec<Misfit> {
 #[derive(Clone, Copy, Debug)]
 enum Scenery {
     Workspace(WorkspaceKind),
+    PaintTab(PaintTab),
     Draft,
     Live,
     Operator,
@@ -335,11 +336,14 @@ enum Scenery {
 }
 
 /// In this order in one window: a draft and Live change what the others show.
-const SCENERIES: [Scenery; 18] = [
+const SCENERIES: [Scenery; 21] = [
     Scenery::Workspace(WorkspaceKind::Enrol),
     Scenery::Workspace(WorkspaceKind::Compare),
     Scenery::Workspace(WorkspaceKind::Align),
     Scenery::Workspace(WorkspaceKind::Paint),
+    Scenery::PaintTab(PaintTab::Regions),
+    Scenery::PaintTab(PaintTab::Robot),
+    Scenery::PaintTab(PaintTab::Film),
     Scenery::Workspace(WorkspaceKind::Servo),
     Scenery::RealRobot,
     Scenery::Workspace(WorkspaceKind::History),
@@ -366,6 +370,10 @@ fn arrange(harness: &mut WindowHarness, scenery: Scenery) {
     };
     match scenery {
         Scenery::Workspace(workspace) => go(harness, workspace),
+        Scenery::PaintTab(tab) => {
+            go(harness, WorkspaceKind::Paint);
+            act(harness, Action::ShowPaintTab(tab));
+        }
         Scenery::Draft => {
             go(harness, WorkspaceKind::Enrol);
             act(harness, Action::Capture);
@@ -415,7 +423,11 @@ fn leave(harness: &mut WindowHarness, scenery: Scenery) {
             harness.key_press(egui::Key::Escape);
             settle(harness);
         }
-        Scenery::Workspace(_) | Scenery::RealRobot | Scenery::Draft | Scenery::Live => {
+        Scenery::Workspace(_)
+        | Scenery::PaintTab(_)
+        | Scenery::RealRobot
+        | Scenery::Draft
+        | Scenery::Live => {
             act(harness, Action::GoTo(WorkspaceKind::Inspect));
         }
     }

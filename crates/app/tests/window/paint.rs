@@ -5,16 +5,21 @@ use std::{f64::consts::FRAC_PI_2, path::Path};
 use ::robot::paint::KeepOut;
 use app::{
     WindowOptions,
-    workspaces::paint::{PaintAction, PaintFile, PaintState, PaintWorkspace, Playback, ShownPath},
+    workspaces::paint::{
+        PaintAction, PaintFile, PaintState, PaintTool, PaintWorkspace, Playback, ShownPath,
+    },
 };
 use egui::{Key, Modifiers, Role, Vec2};
-use egui_kittest::{Node, kittest::Queryable as _};
+use egui_kittest::{
+    Node,
+    kittest::{NodeT as _, Queryable as _},
+};
 use geometry::rigid::from_euler_zyx;
 use inspection::library::{LibraryFolder, SprayPath};
 use shell::{
     action::Action,
     cell::{ProgramSetup, RobotAction},
-    session::WorkspaceKind,
+    session::{PaintTab, WorkspaceKind},
 };
 
 use inspection::fixtures::copy_library;
@@ -63,6 +68,12 @@ fn part(harness: &WindowHarness) -> String {
     library.title_of(part.as_str()).to_owned()
 }
 
+/// Shows the tab with this title.
+pub(crate) fn open_tab(harness: &mut WindowHarness, title: &str) {
+    harness.get_by_role_and_label(Role::Tab, title).click();
+    settle(harness);
+}
+
 /// Points of the path and litres of paint.
 fn figures(harness: &WindowHarness) -> (usize, f64) {
     let planned = own(harness).planned.as_ref().expect("planned");
@@ -85,7 +96,7 @@ pub(crate) fn draw(harness: &mut WindowHarness, way: &[(f32, f32)]) {
 fn a_part_is_planned_when_it_is_chosen_and_its_film_is_told() {
     let mut harness = open();
     assert_eq!(part(&harness), "Fender, left");
-    harness.get_by_label_contains("% within 40 ± 8 µm");
+    harness.get_by_label_contains("% of the surface within 40 ± 8 µm");
     harness.get_by_label_contains("Of the side that the camera saw");
     harness.get_by_label_contains("stroke 1 of ");
     let (num, _) = figures(&harness);
@@ -119,6 +130,7 @@ fn a_part_is_planned_when_it_is_chosen_and_its_film_is_told() {
 fn what_is_drawn_around_gets_no_paint_and_ctrl_z_brings_it_back() {
     let mut harness = open();
     let (_, whole) = figures(&harness);
+    open_tab(&mut harness, "Regions");
     press(&mut harness, "Keep out: box");
     harness.get_by_label_contains("Drag around what gets no paint");
     draw(&mut harness, &[(0.35, 0.3), (0.6, 0.7)]);
@@ -138,7 +150,7 @@ fn what_is_drawn_around_gets_no_paint_and_ctrl_z_brings_it_back() {
     let (_, again) = figures(&harness);
     assert!((again - whole).abs() < 1e-12);
     // An area to be painted is the opposite: only what lies in the box gets paint.
-    press(&mut harness, "Paint only: box");
+    press(&mut harness, "Paint only: in a box");
     draw(&mut harness, &[(0.35, 0.3), (0.6, 0.7)]);
     let (_, only) = figures(&harness);
     assert!(only < 0.7 * whole, "{only} of {whole}");
@@ -217,6 +229,7 @@ fn a_coat_is_kept_under_a_name() {
 fn an_arm_is_chosen_its_reach_shown_and_the_program_exported() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut harness = open_own(folder.path());
+    open_tab(&mut harness, "Robot");
     harness.get_by_label_contains("Calibrate the cell first");
     let cell = folder.path().join("cell.toml");
     robot::save_calibration(&cell);
@@ -224,6 +237,7 @@ fn an_arm_is_chosen_its_reach_shown_and_the_program_exported() {
     press(&mut harness, "Arm: No arm");
     press(&mut harness, "ABB IRB 4600-40/2.55");
     // Below the field for it, above everything else.
+    harness.get_by_label("Arm: not checked");
     let message = harness.get_by_label_contains("cannot be checked without the nozzle's place");
     let below = harness.get_by_label("Obstacles: Only the part");
     assert!(message.rect().bottom() < below.rect().top());
@@ -241,7 +255,7 @@ fn an_arm_is_chosen_its_reach_shown_and_the_program_exported() {
     let session = |harness: &WindowHarness| harness.state().state().session.program.clone();
     assert_eq!(session(&harness).nozzle, "kuka 0 0 250 0 45 0");
     // With the base as calibrated, the arm does not reach all points.
-    harness.get_by_label_contains("ABB IRB 4600-40/2.55 misses");
+    harness.get_by_label_contains("% of the path reached, all but ");
     harness.get_by_label_contains(
         "Not checked: collisions with anything but part and arm, such as the part's stand; accelerations of the joints",
     );
@@ -284,6 +298,7 @@ fn an_arm_is_chosen_its_reach_shown_and_the_program_exported() {
 fn the_base_of_the_arm_is_entered_a_better_one_applied_and_both_are_undone() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut harness = open_own(folder.path());
+    open_tab(&mut harness, "Robot");
     // The camera looks along the x axis of the robot's base.
     let cell = folder.path().join("cell.toml");
     let robot_from_camera = from_euler_zyx([-FRAC_PI_2, 0.0, -FRAC_PI_2, 0.0, 0.0, 1.2]);
@@ -310,7 +325,7 @@ fn the_base_of_the_arm_is_entered_a_better_one_applied_and_both_are_undone() {
     assert_eq!(num_notices(&harness), 1);
     set_up(&mut harness, "kuka 0 0 250 0 -45 0");
     assert_eq!(num_notices(&harness), 0);
-    harness.get_by_label_contains("reaches all");
+    harness.get_by_label_contains("100 % of the path reached");
 
     let base = |harness: &WindowHarness| harness.state().state().session.program.base[0];
     let num_reached = |harness: &WindowHarness| {
@@ -336,7 +351,7 @@ fn the_base_of_the_arm_is_entered_a_better_one_applied_and_both_are_undone() {
     assert!((base(&harness) + 1800.0).abs() < 1e-9);
     press(&mut harness, "Undo");
     assert!(base(&harness).abs() < 1e-9);
-    harness.get_by_label_contains("reaches all");
+    harness.get_by_label_contains("100 % of the path reached");
 
     // Where the arm reaches nothing, no collision is looked for.
     act_in(&mut harness, |paint: &mut PaintWorkspace, cx| {
@@ -346,6 +361,41 @@ fn the_base_of_the_arm_is_entered_a_better_one_applied_and_both_are_undone() {
     });
     assert_eq!(num_reached(&harness), 0);
     harness.get_by_label("not checked");
+}
+
+#[test]
+fn the_key_focus_walks_the_tabs_and_the_shown_one_is_remembered() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let options = || WindowOptions {
+        settings: Some(folder.path().join("settings.toml")),
+        ..plain_options()
+    };
+    let tab = |harness: &WindowHarness| harness.state().state().session.paint_tab;
+    let mut harness = open_at(SMALL, options());
+    let menu = "Part to paint: Fender, left";
+    harness.get_by_role_and_label(Role::Button, menu).focus();
+    harness.run_steps(2);
+    let titles = ["Coat", "Regions", "Robot", "Film"];
+    let walked = titles.map(|title| (Role::Tab, title));
+    for (role, label) in walked.into_iter().chain([(Role::Button, "Coat: primer")]) {
+        harness.key_press(Key::Tab);
+        harness.run_steps(2);
+        let node = harness.get_by_role_and_label(role, label);
+        assert!(node.accesskit_node().is_focused(), "{label}");
+    }
+    // The key of a tool shows its tab; in another tab a drag turns the view.
+    harness.key_press(Key::D);
+    settle(&mut harness);
+    assert_eq!(tab(&harness), PaintTab::Regions);
+    harness.get_by_label_contains("Drag around what gets no paint");
+    open_tab(&mut harness, "Film");
+    assert_eq!(own(&harness).tool, PaintTool::Look);
+    harness.get_by_label("Paintable surface");
+    eframe::App::on_exit(harness.state_mut());
+    drop(harness);
+    let harness = open_with(SMALL, options());
+    assert_eq!(tab(&harness), PaintTab::Film);
+    harness.get_by_label("Paintable surface");
 }
 
 #[test]

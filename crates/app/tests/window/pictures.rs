@@ -563,6 +563,7 @@ fn a_path_with_a_keep_out_looks_as_it_did() {
     act_in(&mut harness, |paint: &mut PaintWorkspace, cx| {
         paint.state.apply(PaintAction::Step(5), cx);
     });
+    paint::open_tab(&mut harness, "Regions");
     press(&mut harness, "Keep out: box");
     paint::draw(&mut harness, &[(0.4, 0.4), (0.55, 0.6)]);
     compare(&mut harness, "paint_keep_out_small_light");

@@ -20,7 +20,11 @@ use servo::{
         StreamProtocol, run,
     },
 };
-use shell::{action::Action, cell::ServoSettings, session::WorkspaceKind};
+use shell::{
+    action::Action,
+    cell::ServoSettings,
+    session::{PaintTab, WorkspaceKind},
+};
 use simulate::PartKind;
 use ui::{
     language::Language,
@@ -196,10 +200,9 @@ fn what_is_missing_is_said_with_what_to_do() {
     harness.get_by_label_contains("No camera is the source");
     assert!(harness.get_by_label("Start").accesskit_node().is_disabled());
     press(&mut harness, "Change them in Paint");
-    assert_eq!(
-        harness.state().state().session.workspace,
-        WorkspaceKind::Paint
-    );
+    let session = &harness.state().state().session;
+    assert_eq!(session.workspace, WorkspaceKind::Paint);
+    assert_eq!(session.paint_tab, PaintTab::Robot);
     // A library without a part.
     let empty = tempfile::tempdir().expect("a folder");
     let options = WindowOptions {

@@ -304,11 +304,24 @@ fn nothing_of_another_part_is_shown_under_the_name_of_the_part_to_paint() {
     bench.paint.update(&mut bench.shell.context());
     assert!(bench.paint.is_planning() && bench.paint.planned.is_none());
     assert_eq!((bench.paint.time, bench.paint.duration()), (0.0, 0.0));
+    // The part itself is in sight first, and stays.
+    assert!(bench.paint.unpainted.is_none() && bench.paint.task.run_waiting_until(1));
+    bench.paint.update(&mut bench.shell.context());
+    let unpainted = |bench: &Bench| {
+        let unpainted = bench.paint.unpainted.as_ref();
+        unpainted.map(|part| (part.part.clone(), part.points.positions().len() > 500))
+    };
+    assert!(bench.paint.is_planning() && bench.paint.planned.is_none());
+    assert_eq!(unpainted(&bench), Some((lid.clone(), true)));
     bench.paint.cancel();
     bench.settle();
     assert!(bench.paint.planned.is_none() && bench.paint.is_old(&bench.shell.session));
+    assert_eq!(unpainted(&bench), Some((lid.clone(), true)));
     bench.run(PaintAction::ChoosePart(lid.clone()));
-    assert_eq!(bench.planned().part, lid);
+    assert_eq!(
+        (bench.planned().part.clone(), unpainted(&bench)),
+        (lid.clone(), None)
+    );
     assert!(!bench.paint.is_old(&bench.shell.session));
     bench.act(PaintAction::Undo);
     assert!(bench.paint.planned.is_none());
