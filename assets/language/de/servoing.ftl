@@ -72,7 +72,7 @@ servoing-no-camera-advice = Oben eine Kamera als Quelle wählen, oder einen simu
 servoing-no-frames = Das Ziel hat noch kein Bild
 servoing-no-frames-advice = Bilder des Teils von dort hinzufügen, wo die Kamera stehen soll
 servoing-no-arm = Roboter von KUKA bekommen Gelenkwinkel, daher muss der Arm bekannt sein
-servoing-no-arm-advice = In Lackieren unter Roboterprogramm den Arm wählen und die Düse eintragen
+servoing-no-arm-advice = In Lackieren unter Roboter den Arm wählen und die Düse eintragen
 servoing-not-calibrated = Wo die Kamera sitzt, ist nicht bekannt
 servoing-not-calibrated-advice = Zuerst kalibrieren: Taste B, dann Kalibrierung
 

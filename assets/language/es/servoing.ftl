@@ -72,7 +72,7 @@ servoing-no-camera-advice = Elija arriba una cámara como fuente, o un robot sim
 servoing-no-frames = El objetivo no tiene ninguna imagen
 servoing-no-frames-advice = Añada imágenes de la pieza tomadas donde debe estar la cámara
 servoing-no-arm = Los robots de KUKA reciben ángulos de ejes, así que el brazo debe conocerse
-servoing-no-arm-advice = En Pintar, bajo Programa del robot, elija el brazo e introduzca la boquilla
+servoing-no-arm-advice = En Pintar, bajo Robot, elija el brazo e introduzca la boquilla
 servoing-not-calibrated = No se sabe dónde está la cámara
 servoing-not-calibrated-advice = Calíbrela primero: pulse B y después Calibración
 

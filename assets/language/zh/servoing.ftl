@@ -72,7 +72,7 @@ servoing-no-camera-advice = 请在顶栏选择相机作为来源，或使用仿�
 servoing-no-frames = 目标还没有帧
 servoing-no-frames-advice = 请添加在相机应处的位置拍摄的零件帧
 servoing-no-arm = KUKA 机器人接收关节角，因此必须知道机械臂型号
-servoing-no-arm-advice = 请在“喷涂”的机器人程序中选择机械臂并填写喷嘴
+servoing-no-arm-advice = 请在“喷涂”的“机器人”中选择机械臂并填写喷嘴
 servoing-not-calibrated = 不知道相机的位置
 servoing-not-calibrated-advice = 请先标定：按 B，然后选择标定
 

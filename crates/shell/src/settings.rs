@@ -439,6 +439,7 @@ mod tests {
             units: UnitSystem::MetresRadians,
             language: Some(Language::Spanish),
             convention: Convention::Staubli,
+            paint_tab: PaintTab::Film,
             library: Some("/media/stick/reference_parts".into()),
             recent: vec!["a.pcd".into(), "b c.ply".into()],
             window: Some([1024.0, 768.0]),

@@ -69,6 +69,7 @@ pub(super) fn ui(
     let height = num_rows * space::TARGET + (num_rows - 1.0) * ui.spacing().item_spacing.y;
     let room = ui.available_rect_before_wrap();
     let bottom = room.bottom() - height - f32::from(above) - f32::from(below);
+    let bottom = bottom.max(room.top());
     ui.scope_builder(UiBuilder::new().max_rect(room.with_max_y(bottom)), |ui| {
         frame(0, 4).show(ui, |ui| {
             ScrollArea::vertical()
