@@ -73,7 +73,7 @@ pub use self::{
     store::{History, Page},
     table::write_table,
     traceability::{TraceChange, Traceability},
-    trend::{LEAST_FOR_TREND, Limit, TREND_WINDOW, Trend},
+    trend::{Limit, TREND_WINDOW, Trend},
     writer::Writer,
 };
 pub use self::{

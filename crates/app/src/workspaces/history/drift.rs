@@ -120,7 +120,7 @@ fn alone(
     let dotted = LineStyle::Dotted { spacing: 4.0 };
     let dashed = LineStyle::Dashed { length: 6.0 };
     let mut levels: Vec<Level<'_>> = vec![
-        (&mean, of.mean, theme.weak_text, LineStyle::Solid),
+        (mean.as_str(), of.mean, theme.weak_text, LineStyle::Solid),
         ("3σ", high, theme.weak_text, dotted),
         ("", low, theme.weak_text, dotted),
     ];
