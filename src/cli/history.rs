@@ -1,6 +1,7 @@
 //! `partsight history`: lists, shows and exports past inspections.
 
 mod again;
+mod drift;
 mod export;
 mod moments;
 mod runs;
@@ -44,6 +45,7 @@ Examples:
   partsight history export --since 2026-03-01 --csv march.csv
   partsight history export --verdict not-accepted --cases tried && partsight evaluate tried
   partsight history keep all --days 30 --gigabytes 50
+  partsight history drift --since 30d             # mean, 3σ and trend of each part; exit code 1 if a trend will refuse parts
   partsight history runs --since today            # runs of visual servoing; run 3 --json has the curve of one
 
 Each row is one hung part; for a followed source, with the verdict that counted. A part that was inspected again while it \
@@ -66,6 +68,8 @@ pub(super) enum Command {
     Show(ShowArgs),
     /// Write inspections to a table, or as cases for `partsight evaluate`
     Export(ExportArgs),
+    /// Show how score, fit and position of each accepted part drift, and which parts a trend will refuse
+    Drift(drift::DriftArgs),
     /// Set a remark; an empty one removes it
     Remark {
         /// Number of the inspection
@@ -254,6 +258,7 @@ pub(super) fn run(args: &HistoryArgs, console: &mut Console) -> anyhow::Result<O
         Command::List(asked) => list(&open_to_read(&folder, console)?, asked, console),
         Command::Show(asked) => show::run(&open_to_read(&folder, console)?, asked, console),
         Command::Export(asked) => export::run(&open_to_read(&folder, console)?, asked, console),
+        Command::Drift(asked) => drift::run(&open_to_read(&folder, console)?, asked, console),
         Command::Remark { number, text } => {
             open(&folder, console)?
                 .set_remark(*number, text)

@@ -16,7 +16,7 @@ use partsight::{
     geometry::rigid::RigidTransform,
     history::{
         Filter, FrameLoss, History, HistoryBuffer, HistoryEvent, HungId, InspectionContext,
-        KeepFrames, NewEntry, Retention, SceneTitle,
+        KeepFrames, NewEntry, Retention, SceneTitle, StoredVerdict,
     },
     library::Library,
     pipeline::{self, NamedRecipe, Unwatched},
@@ -25,7 +25,7 @@ use partsight::{
 use serde_json::Value;
 
 use crate::{
-    kit::{HangingPart, csv_column, scene_of},
+    kit::{HangingPart, csv_column, history_entry, open_history, scene_of},
     workplace::Workplace,
 };
 
@@ -316,6 +316,43 @@ fn record_line(folder: &Path, parts: &[(PartKind, bool)]) {
             recorder.write(&captured).expect("written");
         }
     }
+}
+
+#[test]
+fn a_part_that_a_trend_will_refuse_is_named_before_and_a_steady_one_is_not() {
+    let place = Workplace::new();
+    let mut history = open_history(&place.path("."));
+    for (part, step) in [("fender", 0.02), ("grille", 0.0)] {
+        for index in 0..60_u8 {
+            let mut entry = history_entry(i64::from(index), StoredVerdict::Accepted, part);
+            // The log odds of a score; those of 0.9 are 2.197.
+            let log_odds: f64 = 4.0 - step * f64::from(index);
+            entry.record.summary.score = Some([1.0 / (1.0 + (-log_odds).exp()), 0.8]);
+            (entry.scene, entry.picture) = (None, None);
+            history.add(&entry, &Retention::default()).expect("written");
+        }
+    }
+    drop(history);
+    let drift =
+        |more: &[&'static str]| [&["history", "drift", "--history", "."][..], more].concat();
+    let lines = place.coded(1, &drift(&["--json"])).lines();
+    let score = |line: &Value| line["quantities"][0].clone();
+    assert_eq!(lines[0]["part"], "fender");
+    assert_eq!(lines[1]["part"], "grille");
+    assert_eq!(score(&lines[0])["trend"]["refuses_in"], 32);
+    assert_eq!(score(&lines[0])["limit"], 0.9);
+    assert_eq!(score(&lines[1])["trend"], Value::Null);
+    let shown = place.coded(1, &drift(&[]));
+    let warning =
+        "fender drifts: at this trend, single parts are refused after 32 more inspections";
+    assert!(shown.err.contains(warning), "{}", shown.err);
+    // Its fit becomes worse, too, but nothing is refused for that.
+    let steady = place.accepted(&drift(&["--part", "grille"]));
+    assert!(
+        steady.out.contains("rms") && !steady.err.contains("drifts"),
+        "{}",
+        steady.err
+    );
 }
 
 #[test]

@@ -137,9 +137,22 @@ history-not-judged-left-out =
     }
 history-drift = Verlauf der Messwerte: { $part }
 history-drift-needs = Der Verlauf der Messwerte wird für ein Teil gezeigt, das mindestens { $count }-mal akzeptiert wurde
+history-drift-shift-bound = Schranke des Positionsfehlers, 95 %
 history-drift-fit = Abweichung von der Referenz, rms
-history-drift-ends = erstes Fünftel { $first }, letztes Fünftel { $last } (Mediane)
-history-drift-place = Lage des Teils: vom ersten zum letzten Fünftel x { $x }, y { $y }, z { $z } (Mediane)
+history-drift-place-along = Lage des Teils entlang { $axis }
+history-drift-mean = Mittelwert
+history-drift-limit = Grenze
+history-drift-band = { $name }: Mittelwert { $mean }, 3σ von { $from } bis { $to }
+history-drift-band-limit = { $name }: Mittelwert { $mean }, 3σ von { $from } bis { $to }, Grenze { $limit }
+history-drift-place = Lage des Teils, Mittelwert ± 3σ: x { $x }, y { $y }, z { $z }
+history-drift-trend = { $name }: Trend von { $from } bis { $to } über die neuesten { $count } Prüfungen
+history-drift-warning =
+    { $count ->
+        [0] { $part } driftet: Bei diesem Trend werden ab jetzt einzelne Teile abgewiesen ({ $name }, Grenze { $limit })
+        [one] { $part } driftet: Bei diesem Trend werden nach 1 weiteren Prüfung einzelne Teile abgewiesen ({ $name }, Grenze { $limit })
+       *[other] { $part } driftet: Bei diesem Trend werden nach { $count } weiteren Prüfungen einzelne Teile abgewiesen ({ $name }, Grenze { $limit })
+    }
+history-drift-warning-advice = Vorher die Ursache suchen: das Fenster der Kamera reinigen, dann die Zelle (Roboter…, Zellenkontrolle), die Gehänge und die Teile prüfen
 
 ## Work and notices
 history-looking = Verlauf wird gelesen

@@ -18,7 +18,6 @@ live-file-is-part = jede Datei ist ein Teil
 live-looking = sucht
 live-moving = Bewegung
 live-steady-for = ruhig seit { $seconds } s
-live-too-slow = Rechner zu langsam
 live-file-by-file = Jede neue Datei wird einzeln geprüft
 live-no-verdict = Kein Ergebnis, bis das Teil still hängt
 live-frames-of = { $num } von { $needed ->

@@ -20,10 +20,11 @@ shell-writing = { $file } wird geschrieben
 shell-csv-files = Kommagetrennte Werte
 shell-stop-live-says = Quelle nicht mehr verfolgen (L)
 shell-live-says = Quelle verfolgen und möglichst viele Bilder prüfen (L)
-shell-calibrated-by = Kalibriert durch { $name } (B)
-shell-no-flange-pose = Die Flanschpose bei der Aufnahme ist nicht bekannt (B)
-shell-calibration-edited = Die Zahlen der Kalibrierung wurden geändert und nicht bestätigt (B)
-shell-not-calibrated = Lage der Kamera in der Roboterzelle: nicht kalibriert (B)
+shell-robot-says = Kalibrierung, Zellenkontrolle und Antworten an Roboter (B)
+shell-calibrated-by = Kalibriert durch { $name }
+shell-no-flange-pose = Die Flanschpose bei der Aufnahme ist nicht bekannt
+shell-calibration-edited = Die Zahlen der Kalibrierung wurden geändert und nicht bestätigt
+shell-not-calibrated = Lage der Kamera in der Roboterzelle: nicht kalibriert
 shell-dark = Dunkel
 shell-light = Hell
 shell-to-dark = Zu Dunkel wechseln (T)
@@ -97,6 +98,32 @@ shell-actual-part = Tatsächliches Teil: { $part }
 shell-truth-not-set = offen
 shell-truth-not-enrolled = Nicht eingelernt
 shell-truth-nothing = Nichts (leere Zelle)
+
+## The status bar
+
+status-days = { $num ->
+        [one] 1 Tag
+       *[other] { $num } Tage
+    }
+status-from-pairs = Hand-Auge-Kalibrierung
+status-made-ago = { $kind }, Alter: { $age }
+status-edited = geändert
+status-no-flange-pose = keine Flanschpose
+status-not-calibrated = nicht kalibriert
+status-robots-off = Roboter aus
+status-robots-off-says = Kein Roboter erhält Antwort: Das Antworten ist ausgeschaltet
+status-not-answered = keine Antwort
+status-no-frames = keine Bilder
+status-listens = bereit
+status-last-answer = Letzte Antwort: { $answer }
+status-live-off = Live aus
+status-live-off-says = Live ist aus: Ob das Teil ruhig hängt, wird nicht beobachtet
+status-motion-unknown = Es kommen keine Bilder: Ob das Teil ruhig hängt, ist nicht bekannt
+status-no-frame = Es wurde noch kein Bild aufgenommen
+status-frame-age = Alter des Bildes auf dem Bildschirm: { $age }
+status-speed = Dieser Rechner prüft { $inspected } von { $frames } Bildern
+status-speed-unknown = Die Geschwindigkeit dieses Rechners wird gemessen, während Live läuft
+status-drift = Drift
 
 ## The source
 

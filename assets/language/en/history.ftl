@@ -137,9 +137,22 @@ history-not-judged-left-out =
     }
 history-drift = Drift: { $part }
 history-drift-needs = Drift is shown for a part that was accepted at least { $count } times
+history-drift-shift-bound = Bound of the position error, 95 %
 history-drift-fit = Fit to the reference, rms
-history-drift-ends = first fifth { $first }, last fifth { $last } (medians)
-history-drift-place = Place of the part: from first to last fifth x { $x }, y { $y }, z { $z } (medians)
+history-drift-place-along = Place of the part along { $axis }
+history-drift-mean = mean
+history-drift-limit = limit
+history-drift-band = { $name }: mean { $mean }, 3σ from { $from } to { $to }
+history-drift-band-limit = { $name }: mean { $mean }, 3σ from { $from } to { $to }, limit { $limit }
+history-drift-place = Place of the part, mean ± 3σ: x { $x }, y { $y }, z { $z }
+history-drift-trend = { $name }: trend from { $from } to { $to } over the newest { $count } inspections
+history-drift-warning =
+    { $count ->
+        [0] { $part } drifts: at this trend, single parts are refused from now on ({ $name }, limit { $limit })
+        [one] { $part } drifts: at this trend, single parts are refused after 1 more inspection ({ $name }, limit { $limit })
+       *[other] { $part } drifts: at this trend, single parts are refused after { $count } more inspections ({ $name }, limit { $limit })
+    }
+history-drift-warning-advice = Look for the cause before: clean the window of the camera, then check the cell (Robot…, Check of the cell), the hangers and the parts
 
 ## Work and notices
 history-looking = Looking into the history

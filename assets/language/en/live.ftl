@@ -18,7 +18,6 @@ live-file-is-part = each file is a part
 live-looking = looking
 live-moving = moving
 live-steady-for = steady for { $seconds } s
-live-too-slow = computer too slow
 live-file-by-file = Every new file is inspected on its own
 live-no-verdict = No verdict until the part hangs still
 live-frames-of = { $num } of { $needed ->

@@ -20,10 +20,11 @@ shell-writing = Writing { $file }
 shell-csv-files = Comma-separated values
 shell-stop-live-says = Stop following the source (L)
 shell-live-says = Follow the source and inspect as many frames as possible (L)
-shell-calibrated-by = Calibrated by { $name } (B)
-shell-no-flange-pose = The flange pose at a capture is not known (B)
-shell-calibration-edited = The numbers of the calibration were changed and not confirmed (B)
-shell-not-calibrated = Where the camera sits in the robot's cell: not calibrated (B)
+shell-robot-says = Calibration, check of the cell and answers to robots (B)
+shell-calibrated-by = Calibrated by { $name }
+shell-no-flange-pose = The flange pose at a capture is not known
+shell-calibration-edited = The numbers of the calibration were changed and not confirmed
+shell-not-calibrated = Where the camera sits in the robot's cell: not calibrated
 shell-dark = Dark
 shell-light = Light
 shell-to-dark = Switch to dark (T)
@@ -97,6 +98,32 @@ shell-actual-part = Actual part: { $part }
 shell-truth-not-set = Not set
 shell-truth-not-enrolled = Not enrolled
 shell-truth-nothing = Nothing (empty cell)
+
+## The status bar
+
+status-days = { $num ->
+        [one] 1 day
+       *[other] { $num } days
+    }
+status-from-pairs = hand-eye calibration
+status-made-ago = { $kind }, { $age } ago
+status-edited = edited
+status-no-flange-pose = no flange pose
+status-not-calibrated = not calibrated
+status-robots-off = robots off
+status-robots-off-says = No robot is answered: answering is off
+status-not-answered = not answered
+status-no-frames = no frames
+status-listens = listens
+status-last-answer = Last answer: { $answer }
+status-live-off = Live off
+status-live-off-says = Live is off: nobody watches whether the part hangs still
+status-motion-unknown = No frames arrive: whether the part hangs still is not known
+status-no-frame = No frame has been captured yet
+status-frame-age = Age of the frame on the screen: { $age }
+status-speed = This computer inspects { $inspected } of { $frames } frames
+status-speed-unknown = The speed of this computer is measured while Live is on
+status-drift = drift
 
 ## The source
 

@@ -137,9 +137,22 @@ history-not-judged-left-out =
     }
 history-drift = Deriva: { $part }
 history-drift-needs = La deriva se muestra de una pieza aceptada al menos { $count } veces
+history-drift-shift-bound = Cota del error de posición, 95 %
 history-drift-fit = Ajuste a la referencia, rms
-history-drift-ends = primer quinto { $first }, último quinto { $last } (medianas)
-history-drift-place = Posición de la pieza: del primer al último quinto x { $x }, y { $y }, z { $z } (medianas)
+history-drift-place-along = Posición de la pieza a lo largo de { $axis }
+history-drift-mean = media
+history-drift-limit = límite
+history-drift-band = { $name }: media { $mean }, 3σ de { $from } a { $to }
+history-drift-band-limit = { $name }: media { $mean }, 3σ de { $from } a { $to }, límite { $limit }
+history-drift-place = Posición de la pieza, media ± 3σ: x { $x }, y { $y }, z { $z }
+history-drift-trend = { $name }: tendencia de { $from } a { $to } en las { $count } inspecciones más recientes
+history-drift-warning =
+    { $count ->
+        [0] { $part } deriva: con esta tendencia se rechazan piezas sueltas desde ahora ({ $name }, límite { $limit })
+        [one] { $part } deriva: con esta tendencia se rechazarán piezas sueltas tras 1 inspección más ({ $name }, límite { $limit })
+       *[other] { $part } deriva: con esta tendencia se rechazarán piezas sueltas tras { $count } inspecciones más ({ $name }, límite { $limit })
+    }
+history-drift-warning-advice = Buscar antes la causa: limpiar la ventana de la cámara y comprobar la celda (Robot…, Comprobación), los colgadores y las piezas
 
 ## Work and notices
 history-looking = Consultando el historial

@@ -18,7 +18,6 @@ live-file-is-part = cada archivo es una pieza
 live-looking = buscando
 live-moving = en movimiento
 live-steady-for = inmóvil desde hace { $seconds } s
-live-too-slow = ordenador demasiado lento
 live-file-by-file = Cada archivo nuevo se inspecciona por separado
 live-no-verdict = Sin resultado hasta que la pieza cuelgue inmóvil
 live-frames-of = { $num } de { $needed ->

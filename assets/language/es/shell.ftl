@@ -20,10 +20,11 @@ shell-writing = Escribiendo { $file }
 shell-csv-files = Valores separados por comas
 shell-stop-live-says = Dejar de seguir la fuente (L)
 shell-live-says = Seguir la fuente e inspeccionar tantas imágenes como sea posible (L)
-shell-calibrated-by = Calibrado con { $name } (B)
-shell-no-flange-pose = No se conoce la pose de la brida al capturar (B)
-shell-calibration-edited = Los números de la calibración se cambiaron y no se confirmaron (B)
-shell-not-calibrated = Dónde está la cámara en la celda del robot: sin calibrar (B)
+shell-robot-says = Calibración, comprobación de la celda y respuestas a robots (B)
+shell-calibrated-by = Calibrado con { $name }
+shell-no-flange-pose = No se conoce la pose de la brida al capturar
+shell-calibration-edited = Los números de la calibración se cambiaron y no se confirmaron
+shell-not-calibrated = Dónde está la cámara en la celda del robot: sin calibrar
 shell-dark = Oscuro
 shell-light = Claro
 shell-to-dark = Cambiar a oscuro (T)
@@ -97,6 +98,32 @@ shell-actual-part = Pieza real: { $part }
 shell-truth-not-set = Sin indicar
 shell-truth-not-enrolled = No registrada
 shell-truth-nothing = Nada (celda vacía)
+
+## The status bar
+
+status-days = { $num ->
+        [one] 1 día
+       *[other] { $num } días
+    }
+status-from-pairs = calibración mano-ojo
+status-made-ago = { $kind }, hace { $age }
+status-edited = modificada
+status-no-flange-pose = sin pose de la brida
+status-not-calibrated = sin calibrar
+status-robots-off = robots apagados
+status-robots-off-says = No se responde a ningún robot: las respuestas están apagadas
+status-not-answered = sin respuesta
+status-no-frames = sin imágenes
+status-listens = a la escucha
+status-last-answer = Última respuesta: { $answer }
+status-live-off = En vivo apagado
+status-live-off-says = En vivo está apagado: no se vigila si la pieza está inmóvil
+status-motion-unknown = No llegan imágenes: no se sabe si la pieza está inmóvil
+status-no-frame = Todavía no se ha capturado ninguna imagen
+status-frame-age = Antigüedad de la imagen en pantalla: { $age }
+status-speed = Este ordenador inspecciona { $inspected } de { $frames } imágenes
+status-speed-unknown = La velocidad de este ordenador se mide mientras En vivo está activo
+status-drift = deriva
 
 ## The source
 

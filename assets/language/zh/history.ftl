@@ -120,9 +120,21 @@ history-no-part-left-out = 未计入 { $count } 条无零件的记录
 history-not-judged-left-out = { $count } 个零件未判定，未计入：检测的帧过少
 history-drift = 漂移：{ $part }
 history-drift-needs = 零件至少被接受 { $count } 次后才显示漂移
+history-drift-shift-bound = 位置误差界限（95 %）
 history-drift-fit = 与参考的偏差（rms）
-history-drift-ends = 前五分之一 { $first }，后五分之一 { $last }（中位数）
-history-drift-place = 零件位置：从前五分之一到后五分之一 x { $x }，y { $y }，z { $z }（中位数）
+history-drift-place-along = 零件沿 { $axis } 的位置
+history-drift-mean = 平均值
+history-drift-limit = 限值
+history-drift-band = { $name }：平均值 { $mean }，3σ 范围 { $from } 至 { $to }
+history-drift-band-limit = { $name }：平均值 { $mean }，3σ 范围 { $from } 至 { $to }，限值 { $limit }
+history-drift-place = 零件位置，平均值 ± 3σ：x { $x }，y { $y }，z { $z }
+history-drift-trend = { $name }：最近 { $count } 次检测的趋势为 { $from } 至 { $to }
+history-drift-warning =
+    { $count ->
+        [0] { $part } 出现漂移：按此趋势，从现在起将有个别零件不被接受（{ $name }，限值 { $limit }）
+       *[other] { $part } 出现漂移：按此趋势，再检测 { $count } 次后将有个别零件不被接受（{ $name }，限值 { $limit }）
+    }
+history-drift-warning-advice = 请提前查找原因：先清洁相机镜头窗口，再检查工位（机器人…，工位检查）、挂具和零件
 
 ## Work and notices
 history-looking = 正在读取历史记录

@@ -12,7 +12,6 @@ live-file-is-part = 每个文件是一个零件
 live-looking = 正在查看
 live-moving = 移动中
 live-steady-for = 已静止 { $seconds } s
-live-too-slow = 计算机太慢
 live-file-by-file = 每个新文件单独检测
 live-no-verdict = 零件静止前不判定
 live-frames-of = { $num }/{ $needed } 帧

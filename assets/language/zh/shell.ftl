@@ -20,10 +20,11 @@ shell-writing = 正在写入 { $file }
 shell-csv-files = 逗号分隔值
 shell-stop-live-says = 停止跟踪来源 (L)
 shell-live-says = 跟踪来源，检测尽可能多的帧 (L)
-shell-calibrated-by = 标定文件：{ $name } (B)
-shell-no-flange-pose = 采集时的法兰位姿未知 (B)
-shell-calibration-edited = 标定的数值被更改且未确认 (B)
-shell-not-calibrated = 相机在机器人工位中的位置：未标定 (B)
+shell-robot-says = 标定、工位检查和对机器人的应答 (B)
+shell-calibrated-by = 标定文件：{ $name }
+shell-no-flange-pose = 采集时的法兰位姿未知
+shell-calibration-edited = 标定的数值被更改且未确认
+shell-not-calibrated = 相机在机器人工位中的位置：未标定
 shell-dark = 深色
 shell-light = 浅色
 shell-to-dark = 切换为深色 (T)
@@ -88,6 +89,29 @@ shell-actual-part = 实际零件：{ $part }
 shell-truth-not-set = 未设置
 shell-truth-not-enrolled = 未注册
 shell-truth-nothing = 无（空工位）
+
+## The status bar
+
+status-days = { $num } 天
+status-from-pairs = 手眼标定
+status-made-ago = { $kind }，{ $age }前
+status-edited = 已修改
+status-no-flange-pose = 无法兰位姿
+status-not-calibrated = 未标定
+status-robots-off = 未应答机器人
+status-robots-off-says = 没有机器人得到应答：应答已关闭
+status-not-answered = 无应答
+status-no-frames = 无帧
+status-listens = 监听中
+status-last-answer = 上次应答：{ $answer }
+status-live-off = “实时”已关
+status-live-off-says = “实时”已关闭：不监视零件是否静止
+status-motion-unknown = 没有收到帧：不知道零件是否静止
+status-no-frame = 尚未采集任何帧
+status-frame-age = 屏幕上的帧的时间：{ $age }前
+status-speed = 此计算机检测了 { $frames } 帧中的 { $inspected } 帧
+status-speed-unknown = “实时”开启时测量此计算机的速度
+status-drift = 漂移
 
 ## The source
 

@@ -28,7 +28,7 @@ use shell::{
     apply::apply,
     cell::RobotCell,
     file_dialog::{self, DialogLock, FileDialog},
-    frame::{bars, keys, notices, rail},
+    frame::{bars, keys, notices, rail, status_bar},
     inspection::{
         camera::Camera,
         inspected::Inspected,
@@ -489,10 +489,11 @@ impl Window {
             }
         }
         let work = self.work();
+        status_bar::ui(ui, &self.state, &self.robot, &mut actions);
         if self.state.session.is_operator_view() {
-            bars::operators(ui, &self.state, &self.robot, work, &mut actions);
+            bars::operators(ui, &self.state, work, &mut actions);
         } else {
-            bars::top(ui, &self.state, &self.robot, work, &mut actions);
+            bars::top(ui, &self.state, work, &mut actions);
             rail::ui(ui, &self.state, &mut actions);
         }
         let front = self.state.session.workspace;

@@ -8,13 +8,16 @@ use inspection::{
     library::Side,
     pipeline::{AS_IN_THE_PAPER, Identification, RecipeLabel, RefusalKind},
 };
-use records::history::{SceneTitle, ServoRun, ServoTargetKind, StoredVerdict, Summary};
+use records::history::{
+    DriftQuantity, DriftWarning, SceneTitle, ServoRun, ServoTargetKind, StoredVerdict, Summary,
+};
 use robot::Convention;
 use servo::ServoState;
 use simulate::ObjectKind;
 use station::robot_file::Unchecked;
 use ui::{
     language::{Language, Message, attribute, described, text},
+    user_error::UserError,
     widgets::{Mark, sentence},
 };
 
@@ -230,6 +233,47 @@ pub fn shift_and_turn(
         units.length(shift_m?),
         units.angle(turn_rad?)
     ))
+}
+
+/// Returns the name of what is followed of a part.
+pub fn drift_quantity(quantity: DriftQuantity) -> String {
+    match quantity {
+        DriftQuantity::Score => sentence(&text!("history-figure-score")),
+        DriftQuantity::ShiftBoundM => text!("history-drift-shift-bound"),
+        DriftQuantity::RmsM => text!("history-drift-fit"),
+        DriftQuantity::XM => text!("history-drift-place-along", axis = "x"),
+        DriftQuantity::YM => text!("history-drift-place-along", axis = "y"),
+        DriftQuantity::ZM => text!("history-drift-place-along", axis = "z"),
+    }
+}
+
+/// Formats a value of it.
+pub fn drift_value(quantity: DriftQuantity, value: f64, units: UnitSystem) -> String {
+    match quantity {
+        // Scores near 1 differ in the third decimal.
+        DriftQuantity::Score => format!("{value:.3}"),
+        DriftQuantity::ShiftBoundM | DriftQuantity::RmsM => units.length(value),
+        DriftQuantity::XM | DriftQuantity::YM | DriftQuantity::ZM => units.signed_length(value),
+    }
+}
+
+/// Says that the part of this title will be refused, and what to do before.
+pub fn drift_warning(part: &str, warning: &DriftWarning, units: UnitSystem) -> UserError {
+    let DriftWarning {
+        quantity,
+        limit,
+        refuses_in,
+    } = *warning;
+    UserError {
+        what: text!(
+            "history-drift-warning",
+            part = part,
+            count = refuses_in,
+            name = drift_quantity(quantity),
+            limit = drift_value(quantity, limit, units)
+        ),
+        advice: text!("history-drift-warning-advice"),
+    }
 }
 
 /// Units shown to the user.

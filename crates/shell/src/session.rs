@@ -22,7 +22,7 @@ use inspection::{
     library::Truth,
     pipeline::{Expected, NamedRecipe, live::MotionState},
 };
-use records::history::{HungId, StoredVerdict, Summary};
+use records::history::{DriftWarning, HungId, StoredVerdict, Summary};
 use robot::{Convention, RobotFrame};
 use stages::{rack::Rack, scene::EmptyCell};
 use station::{Doubt, Subject, age_doubt};
@@ -511,6 +511,19 @@ pub struct ShiftParts {
     pub last: Vec<Summary>,
     /// True labels of the latest parts that have one; known in both views.
     pub labelled: Vec<(HungId, Truth)>,
+    /// The parts that a trend will refuse, as far as they were inspected since the window was opened; known in both views.
+    pub drifting: Vec<DriftingPart>,
+}
+
+/// A part that a trend will refuse.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DriftingPart {
+    /// Its name.
+    pub part: String,
+    /// Its title.
+    pub title: String,
+    /// When, and by which limit.
+    pub warning: DriftWarning,
 }
 
 impl ShiftParts {

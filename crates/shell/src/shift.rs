@@ -7,9 +7,12 @@ use std::{cmp::Reverse, sync::Arc, time::Duration};
 
 use jiff::{Timestamp, Zoned};
 
-use crate::session::{Session, ShiftParts, Source, UserRole};
+use crate::session::{DriftingPart, Session, ShiftParts, Source, UserRole};
 use geometry::error::lock;
-use records::history::{Filter, HistoryBuffer, HistoryError, HungId, PartOutcome, StoredVerdict};
+use records::history::{
+    Filter, HistoryBuffer, HistoryError, HungId, POSES_FOR_WARNING, PartDrift, PartOutcome,
+    StoredVerdict,
+};
 use ui::{
     language::text,
     task::{Task, TaskRunner},
@@ -113,6 +116,11 @@ impl ShiftWatch {
             self.retry_at = None;
             let history = Arc::clone(history);
             let former = session.shift.clone();
+            let known = if former.source == source {
+                former.drifting.clone()
+            } else {
+                Vec::new()
+            };
             let count = move |_: &_| {
                 let labelled = latest.iter().filter_map(|hung| {
                     let row = history.part(hung).transpose()?;
@@ -137,6 +145,7 @@ impl ShiftWatch {
                 let parts = parts.and_then(|parts| {
                     Ok(ShiftParts {
                         labelled: labelled?,
+                        drifting: drifting(&history, parts.source_name(), known)?,
                         ..parts
                     })
                 });
@@ -184,6 +193,40 @@ fn count(
         last,
         ..none
     })
+}
+
+/// The parts that a trend will refuse: those known before, with what is now known of the part accepted last.
+fn drifting(
+    history: &HistoryBuffer,
+    source: Option<String>,
+    mut known: Vec<DriftingPart>,
+) -> Result<Vec<DriftingPart>, HistoryError> {
+    let Some(source) = source else {
+        return Ok(known);
+    };
+    let accepted = Filter {
+        source: Some(source),
+        verdict: Some(StoredVerdict::Accepted.into()),
+        ..Filter::default()
+    };
+    let newest = history.page(&accepted, 0, 1)?.rows.into_iter().next();
+    let Some((part, title)) = newest.and_then(|row| Some((row.part?, row.title))) else {
+        return Ok(known);
+    };
+    known.retain(|of| of.part != part);
+    let of_part = Filter {
+        part: Some(part.clone()),
+        ..accepted
+    };
+    let poses = history.poses(&of_part, POSES_FOR_WARNING)?;
+    // No limit is about the position.
+    let warning = PartDrift::of(&poses, |_| None).and_then(|drift| drift.warning());
+    known.extend(warning.map(|warning| DriftingPart {
+        part,
+        title,
+        warning,
+    }));
+    Ok(known)
 }
 
 #[cfg(test)]
@@ -268,6 +311,33 @@ mod tests {
         let kinect = Source::Camera(Box::new("kinect".parse().expect("a source")));
         let sources = [Some(kinect), Some(Source::default()), None];
         assert_eq!(sources.map(counted), [2, 0, 0]);
+    }
+
+    #[test]
+    fn a_part_that_drifts_is_known_until_it_is_inspected_without_a_trend() {
+        let history = HistoryBuffer::new(None);
+        let add = |seconds: u8, part, log_odds: f64| {
+            let mut entry = history_entry(seconds.into(), StoredVerdict::Accepted, part);
+            entry.record.summary.score = Some([1.0 / (1.0 + (-log_odds).exp()), 0.8]);
+            history.add(seconds.into(), entry, Instant::now());
+        };
+        let known = |known| {
+            let found = drifting(&history, Some("simulated".into()), known).expect("asked");
+            let parts = found.iter().map(|of| of.part.as_str());
+            (parts.collect::<Vec<_>>().join(" "), found)
+        };
+        for seconds in 0..60 {
+            add(seconds, "fender", 4.0 - 0.02 * f64::from(seconds));
+        }
+        let (parts, found) = known(Vec::new());
+        assert_eq!(parts, "fender");
+        add(60, "grille", 4.0);
+        assert_eq!(known(found.clone()).0, "fender");
+        // The cause was found.
+        for seconds in 61..121 {
+            add(seconds, "fender", 4.0);
+        }
+        assert_eq!(known(found).0, "");
     }
 
     #[test]

@@ -249,67 +249,100 @@ impl RayCurves<'_> {
     }
 }
 
-/// Plots curves over moments in time order, with dates along the axis. `written` formats a value; the vertical range spans at
-/// least `least_span` and ends at `most`.
-pub fn over_time(
-    ui: &mut Ui,
-    at: &[Zoned],
-    title: &str,
-    curves: &[(&str, &[f32], Color32)],
-    (written, least_span, most): (&dyn Fn(f64) -> String, f64, f64),
-    theme: &Theme,
-) {
-    let size = vec2(ui.available_width(), OVER_TIME);
-    let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
-    response.widget_info(|| WidgetInfo::labeled(egui::Role::Label, true, title));
-    ui.painter().rect_filled(rect, ROUNDING, theme.panel);
-    ui.add_space(space::SMALL);
-    let last = at.len().saturating_sub(1).max(1);
-    let room = (size.x / 110.0).max(1.0) as usize;
-    let step = at.len().div_ceil(room).max(1);
-    let known = curves.iter().flat_map(|(_, values, _)| *values);
-    let range = range_of(known.filter(|value| value.is_finite()));
-    let [low, high] = range_around(range, least_span, most);
-    let axes = Axes {
-        title: vec![(title.to_owned(), theme.text)],
-        across: Axis::new([0.0, last as f64], dates(at, step)),
-        up: Axis::new(
-            [low, high],
-            [low, high].map(|value| (value, written(value))).to_vec(),
-        ),
-        font: font::small(),
-        read: Some(Box::new(|across| {
-            let index = (across.round().max(0.0) as usize).min(at.len() - 1);
-            let at = at[index].strftime("%Y-%m-%d %H:%M:%S");
-            let values = curves.iter().map(|(name, values, _)| {
-                let value = f64::from(values[index]);
-                let value = if value.is_finite() {
-                    written(value)
-                } else {
-                    "–".into()
-                };
-                format!("{name} {value}").trim_start().to_owned()
-            });
-            let values: Vec<String> = values.collect();
-            format!("{at}: {}", values.join(", "))
-        })),
-    };
-    let shown = axes.show(ui, rect.shrink(space::MEDIUM), |plot| {
-        for (_, values, colour) in curves {
-            let points = values
-                .iter()
-                .enumerate()
-                .filter(|(_, value)| value.is_finite());
-            let points: PlotPoints<'_> = points
-                .map(|(index, value)| [index as f64, f64::from(*value)])
-                .collect();
-            plot.line(Line::new("", points).color(*colour).width(1.4));
-        }
-    });
-    if curves.len() > 1 {
-        let names = curves
+/// A value that a plot marks by a line across: its name, value, colour and style.
+pub type Level<'a> = (&'a str, f64, Color32, LineStyle);
+
+/// Curves over moments in time order, with dates along the axis.
+pub struct OverTime<'a> {
+    /// What is shown.
+    pub title: &'a str,
+    /// The moments.
+    pub at: &'a [Zoned],
+    /// Name, values and colour of each curve; values that are not finite leave a gap.
+    pub curves: &'a [(&'a str, &'a [f32], Color32)],
+    /// Values marked by lines across.
+    pub levels: &'a [Level<'a>],
+    /// Formats a value.
+    pub written: &'a dyn Fn(f64) -> String,
+    /// The values that the axis spans at least.
+    pub least_span: f64,
+    /// The value at which the axis ends at most.
+    pub most: f64,
+}
+
+impl OverTime<'_> {
+    /// Draws it over the width of the panel.
+    pub fn show(self, ui: &mut Ui) {
+        let theme = Theme::of(ui);
+        let Self {
+            title,
+            at,
+            curves,
+            levels,
+            written,
+            least_span,
+            most,
+        } = self;
+        let size = vec2(ui.available_width(), OVER_TIME);
+        let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
+        response.widget_info(|| WidgetInfo::labeled(egui::Role::Label, true, title));
+        ui.painter().rect_filled(rect, ROUNDING, theme.panel);
+        ui.add_space(space::SMALL);
+        let last = at.len().saturating_sub(1).max(1);
+        let room = (size.x / 110.0).max(1.0) as usize;
+        let step = at.len().div_ceil(room).max(1);
+        let known = curves.iter().flat_map(|(_, values, _)| *values);
+        let marked: Vec<f32> = levels.iter().map(|(_, value, ..)| *value as f32).collect();
+        let known = known.filter(|value| value.is_finite()).chain(&marked);
+        let [low, high] = range_around(range_of(known), least_span, most);
+        let axes = Axes {
+            title: vec![(title.to_owned(), theme.text)],
+            across: Axis::new([0.0, last as f64], dates(at, step)),
+            up: Axis::new(
+                [low, high],
+                [low, high].map(|value| (value, written(value))).to_vec(),
+            ),
+            font: font::small(),
+            read: Some(Box::new(|across| {
+                let index = (across.round().max(0.0) as usize).min(at.len() - 1);
+                let at = at[index].strftime("%Y-%m-%d %H:%M:%S");
+                let values = curves.iter().map(|(name, values, _)| {
+                    let value = f64::from(values[index]);
+                    let value = if value.is_finite() {
+                        written(value)
+                    } else {
+                        "–".into()
+                    };
+                    format!("{name} {value}").trim_start().to_owned()
+                });
+                let values: Vec<String> = values.collect();
+                format!("{at}: {}", values.join(", "))
+            })),
+        };
+        let shown = axes.show(ui, rect.shrink(space::MEDIUM), |plot| {
+            for (_, value, colour, style) in levels {
+                let ends = PlotPoints::from(vec![[0.0, *value], [last as f64, *value]]);
+                let line = Line::new("", ends).color(*colour).width(1.0);
+                plot.line(line.style(*style));
+            }
+            for (_, values, colour) in curves {
+                let points = values
+                    .iter()
+                    .enumerate()
+                    .filter(|(_, value)| value.is_finite());
+                let points: PlotPoints<'_> = points
+                    .map(|(index, value)| [index as f64, f64::from(*value)])
+                    .collect();
+                plot.line(Line::new("", points).color(*colour).width(1.4));
+            }
+        });
+        let curves = curves
             .iter()
             .map(|(name, _, colour)| (*name, *colour, LineStyle::Solid));
+        let levels = levels
+            .iter()
+            .map(|(name, _, colour, style)| (*name, *colour, *style));
+        let names = curves.chain(levels).filter(|(name, ..)| !name.is_empty());
         legend(ui.painter(), &shown, names);
     }
 }

@@ -834,10 +834,9 @@ fn statistics_count_the_listed_parts_by_shift_by_part_and_by_reason() {
     harness.get_by_label("75.0 %");
     harness.get_by_label("3 × Score below the threshold");
     harness.get_by_label("Drift: Fender, left");
-    harness.get_by_label("Score: first fifth 0.97, last fifth 0.97 (medians)");
-    harness.get_by_label_contains("rms: first fifth 1.1 mm, last fifth 2.0 mm (medians)");
-    harness
-        .get_by_label_contains("from first to last fifth x 0.0 mm, y 0.0 mm, z 0.0 mm (medians)");
+    harness.get_by_label("Score: mean 0.970, 3σ from 0.970 to 0.970, limit 0.900");
+    harness.get_by_label("Fit to the reference, rms: mean 1.6 mm, 3σ from 0.5 mm to 2.7 mm");
+    harness.get_by_label_contains("mean ± 3σ: x 0.0 mm ± 0.0 mm, y 0.0 mm ± 0.0 mm, z 0.0 mm");
     // The statistics cover the listed parts only.
     press(&mut harness, "Verdict · All ▼");
     press(&mut harness, "Verdict: Accepted");
@@ -849,6 +848,30 @@ fn statistics_count_the_listed_parts_by_shift_by_part_and_by_reason() {
     );
     press(&mut harness, "Statistics");
     harness.get_by_label_contains("Inspection 13: ");
+}
+
+#[test]
+fn statistics_warn_of_a_part_that_a_trend_will_refuse() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut history = records::fixtures::open_history(folder.path());
+    for seconds in 0..60_u8 {
+        let mut entry =
+            records::fixtures::history_entry(i64::from(seconds), StoredVerdict::Accepted, "fender");
+        // The log odds of a score fall from 4 by 0.02 each; those of 0.9 are 2.197.
+        let score = 1.0 / (1.0 + (0.02 * f64::from(seconds) - 4.0).exp());
+        entry.record.summary.score = Some([score, 0.8]);
+        entry.scene = None;
+        entry.picture = None;
+        history.add(&entry, &Retention::default()).expect("written");
+    }
+    drop(history);
+    let mut harness = open_with(SMALL, keeping(folder.path()));
+    go_to_history(&mut harness);
+    press(&mut harness, "Statistics");
+    harness.get_by_label(
+        "Fender, left drifts: at this trend, single parts are refused after 32 more inspections (Score, limit 0.900)",
+    );
+    harness.get_by_label("Score: trend from 0.982 to 0.944 over the newest 60 inspections");
 }
 
 #[test]

@@ -19,6 +19,7 @@ use jiff::{SignedDuration, Timestamp};
 use records::history::StoredVerdict;
 use shell::{
     action::{Action, DialogRequest},
+    cell::RobotPage,
     inspection::{camera::Camera, source::CellChoice},
     roles::RoleAction,
     session::{Source, WorkspaceKind},
@@ -734,24 +735,35 @@ fn the_cell_can_be_set_up_and_is_captured_as_it_is() {
 }
 
 #[test]
-fn in_a_small_window_a_long_title_of_the_source_gives_way_to_what_stands_beside_it() {
+fn a_click_on_the_status_bar_leads_to_where_it_is_set_right() {
     let mut harness = open_with(SMALL, plain_options());
     let longest = CellChoice::all().max_by_key(|choice| choice.title().len());
     let longest = longest.expect("there are choices");
     act(&mut harness, Action::UseCell(longest));
+    let calibration = "Where the camera sits in the robot's cell: not calibrated";
+    let labels = [
+        "Source · ",
+        calibration,
+        "No robot is answered",
+        "Live is off",
+        "Age of the frame on the screen",
+        "The speed of this computer",
+    ];
+    let rects = labels.map(|label| harness.get_by_label_contains(label).rect());
+    for pair in rects.windows(2) {
+        assert!(pair[0].right() <= pair[1].left() + 0.5, "{rects:?}");
+    }
+    assert!(rects[0].left() >= 0.0 && rects[5].right() <= SMALL.x && rects[5].bottom() <= SMALL.y);
+    press(&mut harness, calibration);
+    let page = |harness: &WindowHarness| harness.state().robot().dialog().map(|of| of.page);
+    assert_eq!(page(&harness), Some(RobotPage::InUse));
+    press(&mut harness, "Close");
+    press(&mut harness, "No robot is answered: answering is off");
+    assert_eq!(page(&harness), Some(RobotPage::Answer));
+    press(&mut harness, "Close");
+    harness.get_by_label_contains("Live is off").click();
     harness.run_steps(4);
-    let library = harness.state().state().session.library.as_ref();
-    let num_parts = library.expect("loaded").parts.len();
-    let open = harness.get_by_label("Open…").rect();
-    let library = harness
-        .get_all_by_label_contains(&format!("{num_parts} part"))
-        .map(|node| node.rect())
-        .find(|rect| (rect.center().y - open.center().y).abs() < 10.0)
-        .expect("in the bar");
-    assert!(
-        open.right() <= library.left(),
-        "{open:?} lies over {library:?}"
-    );
+    assert!(harness.state().state().session.is_live());
 }
 
 #[test]

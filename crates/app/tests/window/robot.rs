@@ -123,7 +123,7 @@ fn numbers_typed_by_hand_are_used_remembered_and_forgotten() {
     press(&mut harness, "Close");
     assert!(harness.state().robot().dialog().is_none());
     // The card now shows the pose in the robot's frame.
-    harness.get_by_label_contains("by Cell 2 (");
+    harness.get_by_label_contains("base frame, by Cell 2 (");
     assert!(inspect_of(&harness).parts.contains(&ViewPart::RobotBase));
 
     drop(harness);

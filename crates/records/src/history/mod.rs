@@ -40,6 +40,7 @@ mod table;
 #[cfg(test)]
 mod tests;
 mod traceability;
+mod trend;
 mod waiting;
 mod writer;
 
@@ -47,7 +48,10 @@ pub(crate) use self::differences::index_of_part;
 pub use self::{
     buffer::HistoryBuffer,
     differences::{Differences, InspectionSummary, ParameterChange},
-    drift::{MAX_POSES, PoseRecord},
+    drift::{
+        DriftQuantity, DriftWarning, LEAST_FOR_SPREAD, MAX_POSES, POSES_FOR_WARNING, PartDrift,
+        PoseRecord, QuantityDrift,
+    },
     entry::{
         InspectionContext, InspectionDetail, NewEntry, Record, RobotMarks, StoredVerdict, Summary,
     },
@@ -69,6 +73,7 @@ pub use self::{
     store::{History, Page},
     table::write_table,
     traceability::{TraceChange, Traceability},
+    trend::{Limit, TREND_WINDOW, Trend},
     writer::Writer,
 };
 pub use self::{

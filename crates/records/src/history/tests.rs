@@ -652,7 +652,7 @@ fn poses_of_accepted_parts_come_in_the_order_of_time() {
     let other = history_entry(5, StoredVerdict::Accepted, "grille");
     history.add(&other, &ALL).expect("written");
     let found = |filter: &Filter| {
-        let poses = history.poses(filter).expect("asked");
+        let poses = history.poses(filter, 9).expect("asked");
         let figures = poses
             .iter()
             .map(|pose| (pose.at, pose.reference.clone(), pose.rms_m));
@@ -671,6 +671,13 @@ fn poses_of_accepted_parts_come_in_the_order_of_time() {
     };
     assert_eq!(found(&of_fender), [fender(1), fender(3)]);
     assert_eq!(found(&Filter::default()).len(), 3);
+    let newest = history.poses(&of_fender, 1).expect("asked");
+    let [newest] = newest.as_slice() else {
+        panic!("{newest:?}");
+    };
+    assert_eq!((newest.at, &*newest.source), (moment(3), "simulated"));
+    assert_eq!(newest.recipe, Recipe::default().identity());
+    assert_eq!(newest.accept, Some(Recipe::default().accept));
     let until = Filter {
         until: Some(moment(3)),
         ..of_fender

@@ -12,7 +12,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use egui::{Label, RichText, Role, TextEdit, Ui, WidgetInfo};
+use egui::{Label, RichText, TextEdit, Ui};
 use jiff::{Timestamp, tz::TimeZone};
 
 use crate::{
@@ -37,9 +37,7 @@ use ui::{
     task::{Task, TaskRunner},
     theme::space,
     user_error::UserError,
-    widgets::{
-        self, Mark, drop_down, error_row, heading, line_mark, row, text_button, value_button,
-    },
+    widgets::{self, Mark, drop_down, error_row, heading, row, text_button, value_button},
 };
 
 pub use self::work::{AnsweringStatus, LastAnswer};
@@ -129,6 +127,18 @@ impl Answering {
             }
             None => (Mark::Bad, text!("robot-not-answered")),
         })
+    }
+
+    /// What to do so that robots are answered with poses, while answering is on; empty if nothing.
+    pub fn advice(&self, session: &Session) -> String {
+        let is_followed = session.source.followed().is_some();
+        match &self.failed {
+            _ if session.robot.is_none() => text!("robot-calibrate-first"),
+            Some(failed) => failed.problem.advice.clone(),
+            None if session.is_live() => String::new(),
+            None if is_followed => text!("robot-answers-without-frames-advice"),
+            None => text!("live-cannot-advice"),
+        }
     }
 
     /// Starts, stops or updates the server as the session requires, and reads its reports.
@@ -233,26 +243,6 @@ fn wanted(session: &Session) -> Option<(Listener, Arc<RobotFrame>)> {
     let robot = session.robot.as_ref().filter(|_| setup.is_on)?;
     let listener = setup.listener().ok()?;
     Some((listener, Arc::clone(robot)))
-}
-
-/// Width of a bar, logical pixels, below which the chip is only its sign; the second while the bar also shows running work.
-const ROOM: [f32; 2] = [180.0, 480.0];
-
-/// Draws the status in a bar, while answering is on.
-pub(crate) fn chip(ui: &mut Ui, robot: &RobotCell, session: &Session, is_at_work: bool) {
-    let Some((sign, words)) = robot.answering().words(session) else {
-        return;
-    };
-    ui.add_space(space::SMALL);
-    let response = line_mark(ui, 16.0, 7.5, sign);
-    let room = if is_at_work { ROOM[1] } else { ROOM[0] };
-    if ui.available_width() > room {
-        let text = RichText::new(&words);
-        ui.add(Label::new(text).truncate());
-    } else {
-        response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &words));
-    }
-    response.on_hover_text(words);
 }
 
 /// Draws the page of the dialog.
@@ -428,14 +418,16 @@ fn state(ui: &mut Ui, robot: &RobotCell, session: &Session) {
     let Some((sign, what)) = answering.words(session) else {
         return;
     };
-    let advice = match sign {
-        Mark::Look if session.source.followed().is_none() => text!("live-cannot-advice"),
-        Mark::Look => text!("robot-answers-without-frames-advice"),
-        Mark::Good | Mark::Known | Mark::Bad | Mark::Open | Mark::Runs => String::new(),
-    };
     match answering.problem() {
         Some(problem) => error_row(ui, Mark::Bad, problem),
-        None => error_row(ui, sign, &UserError { what, advice }),
+        None => {
+            // Without a calibration, the advice is above.
+            let advice = match &session.robot {
+                Some(_) => answering.advice(session),
+                None => String::new(),
+            };
+            error_row(ui, sign, &UserError { what, advice });
+        }
     }
     if let Some(status) = answering.status() {
         figures(ui, status);
@@ -487,7 +479,7 @@ fn client(ui: &mut Ui, event: &ClientEvent) {
 }
 
 /// Describes the last trigger and its answer in the terms of the protocol.
-fn in_words(last: &LastAnswer) -> String {
+pub(crate) fn in_words(last: &LastAnswer) -> String {
     let LastAnswer { at, answer } = last;
     let at = clock(*at);
     let verdict = match answer.problem.reason.as_str() {
@@ -507,7 +499,7 @@ fn in_words(last: &LastAnswer) -> String {
 }
 
 /// Formats a moment as local time of day.
-fn clock(at: Timestamp) -> String {
+pub(crate) fn clock(at: Timestamp) -> String {
     let at = at.to_zoned(TimeZone::system());
     at.strftime("%H:%M:%S").to_string()
 }

@@ -17,7 +17,7 @@ use geometry::units::{Metres, Radians};
 use robot::cell_check::{CellBaseline, CellCheck, CellFinding, CellLimits};
 use ui::{
     language::{advised, described, text},
-    plot::over_time,
+    plot::OverTime,
     theme::{Theme, space},
     user_error::UserError,
     widgets::{self, Mark, error_row, heading, row, sentence, text_button},
@@ -323,12 +323,14 @@ fn drift(ui: &mut Ui, checks: &[CellCheck], baseline: &CellBaseline, units: Unit
     // The limit in both directions.
     let least_span = 2.0 * baseline.limits.shift.0;
     let title = text!("robot-shift-over-time");
-    over_time(
-        ui,
-        &at,
-        &title,
-        &curves,
-        (&written, least_span, f64::INFINITY),
-        theme,
-    );
+    let shifts = OverTime {
+        title: &title,
+        at: &at,
+        curves: &curves,
+        levels: &[],
+        written: &written,
+        least_span,
+        most: f64::INFINITY,
+    };
+    shifts.show(ui);
 }

@@ -181,6 +181,8 @@ impl RobotDialog {
 pub enum RobotAction {
     /// Open or close the dialog.
     Toggle,
+    /// Open the dialog at this page.
+    Show(RobotPage),
     /// Close the dialog.
     Close,
     /// Replace the contents of the dialog by edited ones.

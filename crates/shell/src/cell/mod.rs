@@ -9,7 +9,6 @@ mod dialog_state;
 mod setup;
 pub mod state;
 
-pub(crate) use self::answering::chip;
 pub use self::{
     answering::{Answering, AnsweringStatus, LastAnswer},
     cell_check::{CellChecks, CheckFolderContent},

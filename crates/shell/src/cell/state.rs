@@ -11,8 +11,12 @@ use super::{
     },
 };
 use crate::{
-    action::Action, file_dialog::FileDialog, inspection::source::file_name, notice::Notice,
-    session::RememberedCell, workspace::ShellContext,
+    action::Action,
+    file_dialog::FileDialog,
+    inspection::source::file_name,
+    notice::Notice,
+    session::{RememberedCell, Session},
+    workspace::ShellContext,
 };
 use robot::{
     calibration::{CalibrationFit, CameraPlace, CellCalibration, Origin},
@@ -100,11 +104,11 @@ impl RobotCell {
     pub fn apply(&mut self, action: RobotAction, cx: &mut ShellContext<'_>) {
         match action {
             RobotAction::Toggle if self.dialog.is_none() => {
-                let mut dialog = RobotDialog::new(cx.session);
-                if let Some(closed) = self.closed.take() {
-                    dialog.take_draft(closed);
-                }
-                self.dialog = Some(dialog);
+                self.open(cx.session);
+            }
+            RobotAction::Show(page) => {
+                let dialog = self.open(cx.session).clone();
+                self.edit(RobotDialog { page, ..dialog });
             }
             RobotAction::Toggle | RobotAction::Close => {
                 self.closed = self.dialog.take();
@@ -158,6 +162,18 @@ impl RobotCell {
             }
             RobotAction::Answer(setup) => cx.send(Action::UseAnswering(setup)),
         }
+    }
+
+    /// Opens the dialog, unless it is open.
+    fn open(&mut self, session: &Session) -> &RobotDialog {
+        let closed = &mut self.closed;
+        self.dialog.get_or_insert_with(|| {
+            let mut dialog = RobotDialog::new(session);
+            if let Some(closed) = closed.take() {
+                dialog.take_draft(closed);
+            }
+            dialog
+        })
     }
 
     /// Carries out an action of the check of the cell; an error if it cannot start.
@@ -417,10 +433,12 @@ mod tests {
         });
         bench.apply(RobotAction::UseTyped);
         assert!(!bench.work(), "no pose");
-        // What was typed is still there after the dialog was closed.
+        // What was typed is still there after the dialog was closed, and on another page.
         let before = bench.dialog().clone();
         bench.apply(RobotAction::Close);
-        bench.apply(RobotAction::Toggle);
+        bench.apply(RobotAction::Show(RobotPage::Answer));
+        assert_eq!(bench.dialog().page, RobotPage::Answer);
+        bench.apply(RobotAction::Show(before.page));
         assert_eq!(*bench.dialog(), before);
         bench.edit(|dialog| dialog.numbers = "1200 -400 1900 10 20 30".into());
         bench.apply(RobotAction::UseTyped);

@@ -7,18 +7,15 @@ use egui::{
 
 use crate::{
     action::{Action, DialogRequest},
-    cell::{self, RobotAction, RobotCell},
+    cell::RobotAction,
     inspection::{figures::StagePanel, library_cache::LibraryView, source::file_name},
     roles::RoleAction,
     session::{Session, ShiftParts, WorkspaceKind},
-    source::{
-        live::{self, LiveAction},
-        source_menu,
-    },
+    source::{live::LiveAction, source_menu},
     state::State,
 };
 use ui::{
-    language::{Language, described, keys, text},
+    language::{Language, keys, text},
     task::Running,
     theme::{ROUNDING, Theme, ThemeChoice, font, space},
     widgets::{
@@ -28,8 +25,6 @@ use ui::{
 
 /// Margins of a bar.
 const MARGIN: Margin = Margin::symmetric(14, 0);
-/// Width of the bar that is left to the status of Live, logical pixels.
-const LIVE_STATUS_WIDTH_PX: f32 = 180.0;
 /// Width below which the running work is not named beside its spinner, logical pixels: most words would be cut.
 const MIN_TEXT_WIDTH_PX: f32 = 64.0;
 
@@ -45,15 +40,14 @@ enum LibraryForm {
 }
 
 impl LibraryForm {
-    /// The form for this room, logical pixels. Running work with its cancel button, and the status of Live, take precedence;
-    /// work ends soon, but while Live runs the menu stays.
-    fn of(room: f32, is_at_work: bool, has_live_chip: bool) -> Self {
-        match (is_at_work, has_live_chip) {
-            (true, _) if room > 480.0 => Self::Full,
-            (true, _) if room > 250.0 => Self::Short,
-            (true, _) => Self::Hidden,
-            (false, true) if room <= 300.0 => Self::Short,
-            (false, _) => Self::Full,
+    /// The form for this room, logical pixels. Running work with its cancel button takes precedence; it ends soon.
+    fn of(room: f32, is_at_work: bool) -> Self {
+        if is_at_work && room <= 250.0 {
+            Self::Hidden
+        } else if is_at_work && room <= 480.0 {
+            Self::Short
+        } else {
+            Self::Full
         }
     }
 }
@@ -67,25 +61,17 @@ pub struct Progress {
 }
 
 /// Draws the top bar.
-pub fn top(
-    ui: &mut Ui,
-    state: &State,
-    robot: &RobotCell,
-    work: Option<Progress>,
-    actions: &mut Vec<Action>,
-) {
+pub fn top(ui: &mut Ui, state: &State, work: Option<Progress>, actions: &mut Vec<Action>) {
     let theme = Theme::of(ui);
     let panel = Panel::top("top bar").exact_size(space::TOP_BAR);
     fixed_panel(ui, panel, MARGIN, |ui| {
         ui.horizontal_centered(|ui| {
-            // In a narrow window, the controls and the status of Live need the room of the name.
+            // In a narrow window, the controls need the room of the name.
             if ui.ctx().content_rect().width() >= NARROW {
                 let name = RichText::new("Partsight").font(font::body_strong());
                 ui.label(name);
                 ui.add_space(space::LARGE);
             }
-            source_menu::ui(ui, state, actions);
-            robot_button(ui, state, robot, actions);
             let name = text!("shell-capture");
             let capture = RichText::new(&name).font(font::body_strong());
             // The accent marks the next button to press; while a source is followed, there is none.
@@ -104,22 +90,15 @@ pub fn top(
             if labelled(ui, open, &name).clicked() {
                 actions.push(Action::Ask(DialogRequest::Scene));
             }
+            robot_button(ui, actions);
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 settings(ui, state, work.is_some(), actions);
                 ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                    let session = &state.session;
-                    let shares = work.is_some() || has_live_chip(session);
-                    cell::chip(ui, robot, session, shares);
-                    progress(ui, state, work, actions);
+                    progress(ui, work, actions);
                 });
             });
         });
     });
-}
-
-/// True while the status of Live is in the bar; in Inspect it is on the verdict card.
-fn has_live_chip(session: &Session) -> bool {
-    session.is_live() && session.workspace != WorkspaceKind::Inspect
 }
 
 /// Adds the key to a button if there is room.
@@ -159,19 +138,12 @@ fn live_button(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
     }
 }
 
-/// Draws the button of the robot's cell, which shows whether it is calibrated.
-fn robot_button(ui: &mut Ui, state: &State, robot: &RobotCell, actions: &mut Vec<Action>) {
+/// Draws the button of the robot's cell.
+fn robot_button(ui: &mut Ui, actions: &mut Vec<Action>) {
     let theme = Theme::of(ui);
     let name = text!("shell-robot");
     let button = with_key(ui, Button::new(&*name), "B", theme.weak_text);
-    let says = match (&state.session.robot, robot.in_use()) {
-        (Some(frame), _) => {
-            text!("shell-calibrated-by", name = described(&frame.name))
-        }
-        (None, Some(in_use)) if in_use.is_edited => text!("shell-calibration-edited"),
-        (None, Some(_)) => text!("shell-no-flange-pose"),
-        (None, None) => text!("shell-not-calibrated"),
-    };
+    let says = text!("shell-robot-says");
     if labelled(ui, button, &name).on_hover_text(says).clicked() {
         actions.push(Action::Robot(RobotAction::Toggle));
     }
@@ -208,7 +180,7 @@ fn settings(ui: &mut Ui, state: &State, is_at_work: bool, actions: &mut Vec<Acti
     }
     language_menu(ui, state, actions);
     let room = ui.available_width();
-    let form = LibraryForm::of(room, is_at_work, has_live_chip(&state.session));
+    let form = LibraryForm::of(room, is_at_work);
     let library = state.session.library.as_ref();
     if let Some(library) = library.filter(|_| form != LibraryForm::Hidden) {
         library_menu(ui, state, library, form, actions);
@@ -243,14 +215,9 @@ fn library_menu(
 ) {
     let num = library.parts.len();
     let opened = |text: String| format!("{text} ▼");
-    let shared = if has_live_chip(&state.session) {
-        LIVE_STATUS_WIDTH_PX
-    } else {
-        0.0
-    };
     let text = if library.unloaded.is_some() {
         opened(text!("shell-no-library"))
-    } else if ui.available_width() > 300.0 + shared {
+    } else if ui.available_width() > 300.0 {
         let name = shortened(&file_name(&library.path), 20);
         opened(text!("shell-library-named", num = num, name = name))
     } else {
@@ -291,12 +258,9 @@ fn library_menu(
 }
 
 /// Draws the running work and its cancel button.
-fn progress(ui: &mut Ui, state: &State, work: Option<Progress>, actions: &mut Vec<Action>) {
+fn progress(ui: &mut Ui, work: Option<Progress>, actions: &mut Vec<Action>) {
     let theme = Theme::of(ui);
     let Some(Progress { running, cancel }) = work else {
-        if has_live_chip(&state.session) {
-            live::chip(ui, &state.session);
-        }
         return;
     };
     ui.add_space(space::SMALL);
@@ -334,21 +298,15 @@ fn progress(ui: &mut Ui, state: &State, work: Option<Progress>, actions: &mut Ve
 }
 
 /// Height of the lower bar, logical pixels.
-const LOWER: f32 = 76.0;
+const LOWER: f32 = 68.0;
 /// Height of its buttons, logical pixels.
 const BUTTON: f32 = 52.0;
 
 /// Draws both bars.
-pub fn operators(
-    ui: &mut Ui,
-    state: &State,
-    robot: &RobotCell,
-    work: Option<Progress>,
-    actions: &mut Vec<Action>,
-) {
+pub fn operators(ui: &mut Ui, state: &State, work: Option<Progress>, actions: &mut Vec<Action>) {
     let panel = Panel::top("operator's upper bar").exact_size(space::TOP_BAR);
     fixed_panel(ui, panel, MARGIN, |ui| {
-        ui.horizontal_centered(|ui| upper(ui, state, robot, work, actions));
+        ui.horizontal_centered(|ui| upper(ui, state, work, actions));
     });
     let panel = Panel::bottom("operator's lower bar").exact_size(LOWER);
     fixed_panel(ui, panel, MARGIN, |ui| {
@@ -356,13 +314,7 @@ pub fn operators(
     });
 }
 
-fn upper(
-    ui: &mut Ui,
-    state: &State,
-    robot: &RobotCell,
-    work: Option<Progress>,
-    actions: &mut Vec<Action>,
-) {
+fn upper(ui: &mut Ui, state: &State, work: Option<Progress>, actions: &mut Vec<Action>) {
     ui.label(RichText::new("Partsight").font(font::body_strong()));
     ui.add_space(space::LARGE);
     // Otherwise the row would be as high as the bar.
@@ -387,15 +339,8 @@ fn upper(
         }
         language_menu(ui, state, actions);
         ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-            let session = &state.session;
-            not_recorded(ui, session);
-            cell::chip(
-                ui,
-                robot,
-                session,
-                work.is_some() || session.is_history_failing,
-            );
-            progress(ui, state, work, actions);
+            not_recorded(ui, &state.session);
+            progress(ui, work, actions);
         });
     });
 }
@@ -509,25 +454,6 @@ fn lower(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
     {
         actions.push(Action::WrongPart);
     }
-    ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-        source(ui, &state.session);
-    });
-}
-
-/// Draws the source, and whether frames arrive.
-fn source(ui: &mut Ui, session: &Session) {
-    let text = |text: String| egui::Label::new(RichText::new(text).weak());
-    if session.is_live() {
-        let (sign, words) = live::words(session);
-        ui.add(text(words).truncate());
-        line_mark(ui, 16.0, 8.0, sign);
-    } else {
-        let source = text!(
-            "operator-source",
-            source = source_menu::now(&session.source)
-        );
-        ui.add(text(source).truncate());
-    }
 }
 
 #[cfg(test)]
@@ -535,12 +461,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_library_stays_reachable_beside_the_status_of_live() {
-        for room in [60.0, 184.0, 300.0] {
-            assert_eq!(LibraryForm::of(room, false, true), LibraryForm::Short);
-        }
-        assert_eq!(LibraryForm::of(301.0, false, true), LibraryForm::Full);
-        assert_eq!(LibraryForm::of(184.0, false, false), LibraryForm::Full);
-        assert_eq!(LibraryForm::of(184.0, true, false), LibraryForm::Hidden);
+    fn the_library_gives_way_to_running_work_alone() {
+        let forms = [60.0, 251.0, 481.0].map(|room| LibraryForm::of(room, true));
+        let expected = [LibraryForm::Hidden, LibraryForm::Short, LibraryForm::Full];
+        assert_eq!(forms, expected);
+        assert_eq!(LibraryForm::of(60.0, false), LibraryForm::Full);
     }
 }

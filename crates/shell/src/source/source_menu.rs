@@ -21,7 +21,7 @@ use simulate::{Clutter, ObjectKind, PartKind, Side};
 use ui::{
     language::text,
     theme::{font, space},
-    widgets::{self, NARROW, drop_down, shortened, show_scroll_bar, text_button},
+    widgets::{self, drop_down, shortened, show_scroll_bar, text_button},
 };
 
 /// Width of a column, logical pixels.
@@ -30,36 +30,17 @@ const COLUMN_WIDTH_PX: f32 = 230.0;
 const AVERAGED: [usize; 4] = [1, 4, 8, 16];
 /// Part of the window's height that the menu leaves free, logical pixels.
 const MARGIN: f32 = 90.0;
-/// Maximum number of letters of a source for which a narrow window shows the word before it, too.
-const SHORT: usize = 14;
 
-/// Returns the text on the button, shortened in a narrow window.
-fn title(ui: &Ui, source: &str) -> String {
-    let is_narrow = ui.ctx().content_rect().width() < NARROW;
-    if is_narrow && source.chars().count() > SHORT {
-        format!("{} ▼", shortened(source, 22))
-    } else {
-        format!(
-            "{} ▼",
-            text!("shell-source-button", source = shortened(source, 40))
-        )
-    }
-}
-
-/// Draws the button and, once pressed, the menu.
-pub fn ui(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
-    ui.menu_button(title(ui, &now(&state.session.source)), |ui| {
-        let height = ui.ctx().content_rect().height() - MARGIN;
-        // A menu is less high than the window by itself.
-        ui.set_max_height(height);
-        ui.horizontal_top(|ui| {
-            column(ui, height, "cell", |ui| simulated(ui, state, actions));
-            ui.separator();
-            column(ui, height, "others", |ui| others(ui, state, actions));
-        });
-    })
-    .response
-    .on_hover_text(text!("shell-source-says"));
+/// Draws the contents of the menu.
+pub(crate) fn ui(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
+    let height = ui.ctx().content_rect().height() - MARGIN;
+    // A menu is less high than the window by itself.
+    ui.set_max_height(height);
+    ui.horizontal_top(|ui| {
+        column(ui, height, "cell", |ui| simulated(ui, state, actions));
+        ui.separator();
+        column(ui, height, "others", |ui| others(ui, state, actions));
+    });
 }
 
 fn column(ui: &mut Ui, height: f32, name: &str, content: impl FnOnce(&mut Ui)) {

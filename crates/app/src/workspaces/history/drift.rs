@@ -1,139 +1,170 @@
-//! Drift of score, fit and position of one part over time, a point for each accepted inspection.
+//! Drift of score, fit and position of one part over time: mean, spread, limits and trend.
 
-use egui::Ui;
+use egui::{Label, Ui};
+use egui_plot::LineStyle;
 use jiff::{Zoned, tz::TimeZone};
-use nalgebra::Point3;
 
 use geometry::statistics::lower_median;
-use records::history::PoseRecord;
-use shell::language::UnitSystem;
+use records::history::{DriftQuantity, PartDrift, QuantityDrift};
+use shell::language::{UnitSystem, drift_quantity, drift_value};
 use ui::{
     language::text,
-    plot::over_time,
+    plot::{Level, OverTime},
     theme::Theme,
-    widgets::{heading, sentence},
+    widgets::heading,
 };
 
-/// Above this number, parts are drawn in groups by their medians.
+/// Above this number, inspections are drawn in groups by their medians.
 const MOST_DRAWN: usize = 240;
-/// Smallest number of parts for which a drift is shown.
-pub(super) const LEAST: usize = 3;
-/// Drift compares the first and the last of this many equal shares.
-const END: usize = 5;
 
-/// The accepted parts of one kind, or groups of them, oldest first.
+/// The accepted inspections of one part, or groups of them, oldest first.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drift {
     /// The part's title.
     pub title: String,
-    /// Number of parts.
+    /// Number of inspections.
     pub num_parts: usize,
     /// Time of the first inspection of each group.
     at: Vec<Zoned>,
-    score: Vec<f32>,
-    /// Root mean square distance from the reference, metres.
-    rms_m: Vec<f32>,
-    /// Position of the part's middle relative to its median over all, along x, y and z of the camera, metres. NaN for
-    /// groups whose references are no longer enrolled.
-    offset_m: [Vec<f32>; 3],
+    /// Each known quantity, with the median of each group; NaN where none is known.
+    drawn: Vec<(QuantityDrift, Vec<f32>)>,
 }
 
 impl Drift {
-    /// Computes the drift of parts given in order of time; `None` if there are too few.
-    pub(super) fn new(
-        title: String,
-        poses: &[PoseRecord],
-        zone: &TimeZone,
-        middle_of: impl Fn(&str) -> Option<Point3<f64>>,
-    ) -> Option<Self> {
-        if poses.len() < LEAST {
-            return None;
-        }
-        let mut drift = Self {
-            title,
-            num_parts: poses.len(),
-            at: Vec::new(),
-            score: Vec::new(),
-            rms_m: Vec::new(),
-            offset_m: Default::default(),
+    pub(super) fn new(title: String, found: PartDrift, zone: &TimeZone) -> Self {
+        let num_parts = found.at.len();
+        let size = num_parts.div_ceil(MOST_DRAWN).max(1);
+        let first = found.at.iter().step_by(size);
+        let median = |group: &[f64]| {
+            let known = group.iter().copied().filter(|value| value.is_finite());
+            lower_median(known).map_or(f32::NAN, |value| value as f32)
         };
-        let middle = |pose: &PoseRecord| Some(pose.camera_from_part * middle_of(&pose.reference)?);
-        let middles: Vec<Option<Point3<f64>>> = poses.iter().map(middle).collect();
-        let usual: [Option<f64>; 3] =
-            std::array::from_fn(|axis| lower_median(middles.iter().flatten().map(|at| at[axis])));
-        let size = poses.len().div_ceil(MOST_DRAWN);
-        for (group, middles) in poses.chunks(size).zip(middles.chunks(size)) {
-            let of = |value: fn(&PoseRecord) -> f64| {
-                lower_median(group.iter().map(value)).unwrap_or_default() as f32
-            };
-            drift.at.push(group[0].at.to_zoned(zone.clone()));
-            drift.score.push(of(|pose| pose.score));
-            drift.rms_m.push(of(|pose| pose.rms_m));
-            for (axis, offsets) in drift.offset_m.iter_mut().enumerate() {
-                let here = lower_median(middles.iter().flatten().map(|at| at[axis]));
-                let offset = here.zip(usual[axis]).map(|(here, usual)| here - usual);
-                offsets.push(offset.map_or(f32::NAN, |offset| offset as f32));
-            }
+        Self {
+            title,
+            num_parts,
+            at: first.map(|at| at.to_zoned(zone.clone())).collect(),
+            drawn: found
+                .quantities
+                .into_iter()
+                .map(|of| {
+                    let medians = of.values.chunks(size).map(median).collect();
+                    (of, medians)
+                })
+                .collect(),
         }
-        Some(drift)
-    }
-
-    /// Medians of the first and the last fifth of a series.
-    fn ends(values: &[f32]) -> Option<[f64; 2]> {
-        let known: Vec<f64> = values
-            .iter()
-            .filter(|x| x.is_finite())
-            .map(|x| f64::from(*x))
-            .collect();
-        let num = known.len().div_ceil(END);
-        let first = lower_median(known.iter().take(num).copied())?;
-        let last = lower_median(known.iter().rev().take(num).copied())?;
-        Some([first, last])
     }
 }
 
-/// Draws score, fit and position one below the other.
+/// Draws score, bound, fit and position one below the other, and the trends.
 pub(super) fn ui(ui: &mut Ui, drift: &Drift, units: UnitSystem) {
-    let theme = Theme::of(ui);
     heading(ui, &text!("history-drift", part = drift.title.as_str()));
-    let score = |value: f64| format!("{value:.2}");
-    let length = |value: f64| units.length(value);
-    let one_curve =
-        |ui: &mut Ui, name: String, values: &[f32], shown: (&dyn Fn(f64) -> String, f64, f64)| {
-            let [first, last] = Drift::ends(values).unwrap_or_default().map(shown.0);
-            let ends = text!("history-drift-ends", first = first, last = last);
-            let curves = [("", values, theme.first_series)];
-            let title = format!("{name}: {ends}");
-            over_time(ui, &drift.at, &title, &curves, shown, theme);
-        };
-    let name = sentence(&text!("history-figure-score"));
-    one_curve(ui, name, &drift.score, (&score, 0.1, 1.0));
-    let name = text!("history-drift-fit");
-    one_curve(ui, name, &drift.rms_m, (&length, 0.002, f64::INFINITY));
-    let [x, y, z] = &drift.offset_m;
-    if x.iter().any(|x| x.is_finite()) {
-        let offset = |value: f64| units.signed_length(value);
-        let moved = [x, y, z].map(|values| {
-            let [first, last] = Drift::ends(values).unwrap_or_default();
-            offset(last - first)
-        });
-        let [dx, dy, dz] = moved;
-        let title = text!("history-drift-place", x = dx, y = dy, z = dz);
-        let curves = [
-            ("x", x, theme.first_series),
-            ("y", y, theme.second_series),
-            ("z", z, theme.reference_series),
-        ];
-        let curves = curves.map(|(name, values, colour)| (name, values.as_slice(), colour));
-        over_time(
-            ui,
-            &drift.at,
-            &title,
-            &curves,
-            (&offset, 0.02, f64::INFINITY),
-            theme,
-        );
+    let mut of_place = Vec::new();
+    for (of, medians) in &drift.drawn {
+        match of.quantity {
+            DriftQuantity::Score => alone(ui, drift, (of, medians), units, [0.1, 1.0]),
+            DriftQuantity::ShiftBoundM | DriftQuantity::RmsM => {
+                alone(ui, drift, (of, medians), units, [0.002, f64::INFINITY]);
+            }
+            DriftQuantity::XM | DriftQuantity::YM | DriftQuantity::ZM => {
+                of_place.push((of, medians.as_slice()));
+            }
+        }
     }
+    if let [x, y, z] = of_place[..] {
+        place(ui, drift, [x, y, z], units);
+    }
+    for (of, _) in &drift.drawn {
+        let Some(trend) = of.trend else { continue };
+        let text = text!(
+            "history-drift-trend",
+            name = drift_quantity(of.quantity),
+            from = drift_value(of.quantity, trend.from, units),
+            to = drift_value(of.quantity, trend.to, units),
+            count = trend.over
+        );
+        ui.add(Label::new(text).wrap());
+    }
+}
+
+/// Draws one quantity with its mean, spread and limit. The axis spans the first at least, and ends at the second at most.
+fn alone(
+    ui: &mut Ui,
+    drift: &Drift,
+    (of, medians): (&QuantityDrift, &[f32]),
+    units: UnitSystem,
+    [least_span, most]: [f64; 2],
+) {
+    let theme = Theme::of(ui);
+    let written = |value: f64| drift_value(of.quantity, value, units);
+    let [low, high] = of.band;
+    let name = drift_quantity(of.quantity);
+    let [mean, from, to] = [of.mean, low, high].map(written);
+    let title = match of.limit {
+        Some(limit) => text!(
+            "history-drift-band-limit",
+            name = name,
+            mean = mean,
+            from = from,
+            to = to,
+            limit = written(limit.value())
+        ),
+        None => text!(
+            "history-drift-band",
+            name = name,
+            mean = mean,
+            from = from,
+            to = to
+        ),
+    };
+    let [mean, limit] = [text!("history-drift-mean"), text!("history-drift-limit")];
+    let dotted = LineStyle::Dotted { spacing: 4.0 };
+    let dashed = LineStyle::Dashed { length: 6.0 };
+    let mut levels: Vec<Level<'_>> = vec![
+        (mean.as_str(), of.mean, theme.weak_text, LineStyle::Solid),
+        ("3σ", high, theme.weak_text, dotted),
+        ("", low, theme.weak_text, dotted),
+    ];
+    levels.extend(
+        of.limit
+            .map(|of| (limit.as_str(), of.value(), theme.rejected, dashed)),
+    );
+    let plot = OverTime {
+        title: &title,
+        at: &drift.at,
+        curves: &[("", medians, theme.first_series)],
+        levels: &levels,
+        written: &written,
+        least_span,
+        most,
+    };
+    plot.show(ui);
+}
+
+/// Draws the position along the camera's axes.
+fn place(ui: &mut Ui, drift: &Drift, axes: [(&QuantityDrift, &[f32]); 3], units: UnitSystem) {
+    let theme = Theme::of(ui);
+    let [x, y, z] = axes.map(|(of, _)| {
+        let mean = units.signed_length(of.mean);
+        let spread = units.length(of.band[1] - of.mean);
+        format!("{mean} ± {spread}")
+    });
+    let title = text!("history-drift-place", x = x, y = y, z = z);
+    let [x, y, z] = axes.map(|(_, medians)| medians);
+    let curves = [
+        ("x", x, theme.first_series),
+        ("y", y, theme.second_series),
+        ("z", z, theme.reference_series),
+    ];
+    let plot = OverTime {
+        title: &title,
+        at: &drift.at,
+        curves: &curves,
+        levels: &[],
+        written: &|value| units.signed_length(value),
+        least_span: 0.02,
+        most: f64::INFINITY,
+    };
+    plot.show(ui);
 }
 
 #[cfg(test)]
@@ -141,44 +172,35 @@ mod tests {
     use jiff::{SignedDuration, Timestamp};
 
     use super::*;
-    use geometry::rigid::from_euler_zyx;
 
-    /// Parts that move away by 0.1 mm each, seen by a camera that becomes noisier.
-    fn poses(num: usize) -> Vec<PoseRecord> {
-        let pose = |i: usize| PoseRecord {
-            at: Timestamp::UNIX_EPOCH + SignedDuration::from_mins(i as i64),
-            score: 0.99 - 1e-4 * i as f64,
-            reference: if i % 7 == 3 { "gone" } else { "door" }.into(),
-            camera_from_part: from_euler_zyx([0.0, 0.0, 0.0, 0.0, 0.0, 1e-4 * i as f64]),
-            rms_m: 0.001 + 1e-5 * i as f64,
+    #[test]
+    fn many_inspections_are_drawn_in_groups_by_the_medians_of_what_is_known() {
+        let num = 1000;
+        let known = |index: usize| {
+            if index % 7 == 3 {
+                f64::NAN
+            } else {
+                index as f64
+            }
         };
-        (0..num).map(pose).collect()
-    }
-
-    fn drift(num: usize) -> Option<Drift> {
-        let middle_of = |name: &str| (name == "door").then(|| Point3::new(0.1, 0.2, 1.4));
-        Drift::new("Door".into(), &poses(num), &TimeZone::UTC, middle_of)
-    }
-
-    #[test]
-    fn a_part_that_moves_away_and_a_camera_that_becomes_noisier_show() {
-        let found = drift(100).expect("a drift");
-        assert_eq!((found.num_parts, found.at.len()), (100, 100));
-        let [first, last] = Drift::ends(&found.offset_m[2]).expect("known");
-        // From the median of the first fifth to that of the last.
-        assert!((last - first - 0.008).abs() < 3e-4, "{first} {last}");
-        assert_eq!(Drift::ends(&found.offset_m[0]), Some([0.0, 0.0]));
-        let [first, last] = Drift::ends(&found.rms_m).expect("known");
-        assert!((last - first - 0.0008).abs() < 1e-6, "{first} {last}");
-        // The middle of a reference no longer enrolled is unknown.
-        assert!(found.offset_m[2][3].is_nan() && found.offset_m[2][4].is_finite());
-    }
-
-    #[test]
-    fn many_parts_are_drawn_in_groups_and_few_are_no_drift() {
-        let found = drift(1000).expect("a drift");
-        assert_eq!((found.num_parts, found.at.len()), (1000, 200));
-        assert!(found.offset_m[2].iter().all(|z| z.is_finite()));
-        assert_eq!(drift(2), None);
+        let of = QuantityDrift {
+            quantity: DriftQuantity::RmsM,
+            values: (0..num).map(known).collect(),
+            mean: 0.0,
+            band: [0.0; 2],
+            limit: None,
+            trend: None,
+        };
+        let minutes = |index: i64| Timestamp::UNIX_EPOCH + SignedDuration::from_mins(index);
+        let found = PartDrift {
+            at: (0..num as i64).map(minutes).collect(),
+            quantities: vec![of],
+        };
+        let drift = Drift::new("Door".into(), found, &TimeZone::UTC);
+        assert_eq!((drift.num_parts, drift.at.len()), (num, 200));
+        let (_, medians) = &drift.drawn[0];
+        // Of 0, 1, 2 and 4, and of 5 to 9.
+        assert_eq!((medians[0], medians[1]), (1.0, 7.0));
+        assert_eq!(drift.at[1].minute(), 5);
     }
 }

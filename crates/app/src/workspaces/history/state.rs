@@ -12,7 +12,7 @@ use super::{
     action::{HistoryAction, HistoryFile, HistoryJob},
     drift::Drift,
     filter::ListFilter,
-    statistics::{self, Statistics, StatisticsView, most_accepted},
+    statistics::{self, Statistics, StatisticsView, accepted_parts},
     work::{self, HistoryQuery, HistoryResult, OpenedInspection, RunsView, former_title},
 };
 
@@ -436,17 +436,17 @@ impl HistoryState {
                 let mut found = statistics::count(&outcomes, &starts, now.time_zone(), title_of);
                 found.num_left_out = num_left_out;
                 found.source = source.filter(|_| counted.source.is_some());
-                let part = filter.part.clone().or_else(|| most_accepted(&outcomes));
-                if let Some(part) = part {
-                    counted.part = Some(part.clone());
-                    let poses = keeper.poses(&counted);
-                    let poses = poses.map_err(|error| UserError::of(&error))?;
-                    let loaded = libraries.get();
-                    let middle_of = |name: &str| {
-                        let mut references = loaded.library.references.iter();
-                        references.find(|of| of.enrolled_as == name)?.middle()
-                    };
-                    found.drift = Drift::new(title_of(&part), &poses, now.time_zone(), middle_of);
+                let accepted = accepted_parts(&outcomes);
+                let warnings = work::drift_warnings(&accepted, &counted, &keeper);
+                let warnings = warnings.map_err(|error| UserError::of(&error))?.into_iter();
+                found.warnings = warnings
+                    .map(|(part, warning)| (title_of(&part), warning))
+                    .collect();
+                if let Some(part) = filter.part.as_ref().or(accepted.first()) {
+                    let drift = work::drift(part, counted, &keeper, &libraries.get().library);
+                    let drift = drift.map_err(|error| UserError::of(&error))?;
+                    found.drift =
+                        drift.map(|drift| Drift::new(title_of(part), drift, now.time_zone()));
                 }
                 Ok(Box::new(found))
             });

@@ -10,9 +10,9 @@ use jiff::{Zoned, tz::TimeZone};
 
 use super::drift::{self, Drift};
 use inspection::pipeline::RefusalKind;
-use records::history::{PartOutcome, StoredVerdict};
+use records::history::{DriftWarning, LEAST_FOR_SPREAD, PartOutcome, StoredVerdict};
 use shell::{
-    language::{UnitSystem, refusal_kind},
+    language::{UnitSystem, drift_warning, refusal_kind},
     session::{ShiftStarts, Source},
     source::source_menu,
 };
@@ -20,7 +20,7 @@ use ui::{
     language::{described, text},
     plot::{Axes, Axis, legend},
     theme::{ROUNDING, Theme, font, space},
-    widgets::{fitted_middle, heading},
+    widgets::{Mark, error_row, fitted_middle, heading},
 };
 
 /// Number of shifts that fit the plot; the last ones are shown.
@@ -98,6 +98,8 @@ pub struct Statistics {
     pub num_no_part: usize,
     /// Number of parts that left before enough of their frames were inspected, which are not counted.
     pub num_not_judged: usize,
+    /// Titles of the parts that a trend will refuse, and when.
+    pub warnings: Vec<(String, DriftWarning)>,
     /// Drift of the part that the filter names, or of the one accepted most often.
     pub drift: Option<Drift>,
 }
@@ -180,19 +182,18 @@ pub(super) fn count(
     found
 }
 
-/// The part accepted most often.
-pub(super) fn most_accepted(outcomes: &[PartOutcome]) -> Option<String> {
+/// Names of the accepted parts, the one accepted most often first.
+pub(super) fn accepted_parts(outcomes: &[PartOutcome]) -> Vec<String> {
     let accepted = outcomes
         .iter()
         .filter(|outcome| outcome.verdict == StoredVerdict::Accepted);
-    let mut parts: BTreeMap<&str, usize> = BTreeMap::new();
+    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
     for part in accepted.filter_map(|outcome| outcome.part.as_deref()) {
-        *parts.entry(part).or_default() += 1;
+        *counts.entry(part).or_default() += 1;
     }
-    let most = parts
-        .into_iter()
-        .max_by_key(|(part, num)| (*num, Reverse(*part)));
-    most.map(|(part, _)| part.to_owned())
+    let mut parts: Vec<(&str, usize)> = counts.into_iter().collect();
+    parts.sort_by_key(|(_, num)| Reverse(*num));
+    parts.into_iter().map(|(part, _)| part.to_owned()).collect()
 }
 
 /// Draws the statistics.
@@ -208,6 +209,9 @@ pub(super) fn ui(ui: &mut Ui, view: &StatisticsView, units: UnitSystem) {
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         // Lines of text need less height than controls.
         ui.spacing_mut().interact_size.y = 22.0;
+        for (part, warning) in &found.warnings {
+            error_row(ui, Mark::Look, &drift_warning(part, warning, units));
+        }
         shifts(ui, &found.shifts);
         if let Some(source) = &found.source {
             let name = source_menu::now(source);
@@ -247,7 +251,7 @@ pub(super) fn ui(ui: &mut Ui, view: &StatisticsView, units: UnitSystem) {
         if let Some(drift) = &found.drift {
             drift::ui(ui, drift, units);
         } else {
-            let needed = text!("history-drift-needs", count = drift::LEAST);
+            let needed = text!("history-drift-needs", count = LEAST_FOR_SPREAD);
             ui.add(egui::Label::new(needed).wrap());
         }
     });

@@ -10,11 +10,13 @@ use std::{
 use image::{DynamicImage, RgbImage};
 
 use crate::workspaces::history::{HistoryFile, filter::ListFilter};
+use inspection::library::Library;
 use records::{
     cases::{CaseFolder, PastCases, TruthFrom},
     history::{
-        Filter, HistoryBuffer, HistoryError, Page, PartOutcome, Record, Retention, ServoRecord,
-        ServoRun, StoredVerdict, Summary, Usage, write_servo_table, write_table,
+        DriftWarning, Filter, HistoryBuffer, HistoryError, MAX_POSES, POSES_FOR_WARNING, Page,
+        PartDrift, PartOutcome, Record, Retention, ServoRecord, ServoRun, StoredVerdict, Summary,
+        Usage, write_servo_table, write_table,
     },
 };
 use ui::{language::text, user_error::UserError};
@@ -162,6 +164,47 @@ pub(super) fn former_title(history: &HistoryBuffer, name: &str) -> String {
     let page = history.page(&accepted, 0, 1).ok();
     let row = page.and_then(|page| page.rows.into_iter().next());
     row.map_or_else(|| name.to_owned(), |row| row.title)
+}
+
+/// Parts that are looked after, those accepted most often.
+const MAX_WATCHED: usize = 50;
+
+/// The parts of these names that a trend will refuse, of those that match the filter.
+pub(super) fn drift_warnings(
+    parts: &[String],
+    filter: &Filter,
+    history: &HistoryBuffer,
+) -> Result<Vec<(String, DriftWarning)>, HistoryError> {
+    let mut warnings = Vec::new();
+    for part in parts.iter().take(MAX_WATCHED) {
+        let of_part = Filter {
+            part: Some(part.clone()),
+            ..filter.clone()
+        };
+        let poses = history.poses(&of_part, POSES_FOR_WARNING)?;
+        // No limit is about the position.
+        let warning = PartDrift::of(&poses, |_| None).and_then(|drift| drift.warning());
+        warnings.extend(warning.map(|warning| (part.clone(), warning)));
+    }
+    Ok(warnings)
+}
+
+/// The drift of a part over the inspections that match the filter; `None` if they are too few.
+pub(super) fn drift(
+    part: &str,
+    filter: Filter,
+    history: &HistoryBuffer,
+    library: &Library,
+) -> Result<Option<PartDrift>, HistoryError> {
+    let of_part = Filter {
+        part: Some(part.to_owned()),
+        ..filter
+    };
+    let poses = history.poses(&of_part, MAX_POSES)?;
+    Ok(PartDrift::of(&poses, |name| {
+        let mut references = library.references.iter();
+        references.find(|of| of.enrolled_as == name)?.middle()
+    }))
 }
 
 fn opened(record: Record, history: &HistoryBuffer) -> Result<OpenedInspection, HistoryError> {

@@ -341,6 +341,7 @@ mod tests {
                 stillness: Some(MotionState::Watching),
                 standing: LiveVerdict::Open,
                 rates: [None; 2],
+                inspection_rate: None,
                 latency: None,
                 held_up_by,
                 num_inspected: 9,

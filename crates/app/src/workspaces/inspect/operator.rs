@@ -168,23 +168,6 @@ fn title_label(ui: &mut Ui, title: &str, rows: Arc<Galley>) {
     }
 }
 
-/// Warns that robots are to be answered, but get no pose or no frames.
-fn robots_without_answer(ui: &mut Ui, session: &Session) {
-    if !session.answering.is_on {
-        return;
-    }
-    let says = if session.robot.is_none() {
-        text!("operator-robots-without-pose")
-    } else if session.is_live() {
-        return;
-    } else if session.source.followed().is_some() {
-        text!("operator-robots-without-frames")
-    } else {
-        text!("operator-robots-without-source")
-    };
-    warn(ui, &says, &font::far_reason());
-}
-
 fn warn(ui: &mut Ui, says: &str, font: &FontId) {
     let theme = Theme::of(ui);
     ui.add_space(space::SMALL);
@@ -265,7 +248,6 @@ fn column(ui: &mut Ui, banner: &Banner, session: &Session, actions: &mut Vec<Ins
         expecting::ui(ui, session, &mut of_shell);
         actions.extend(of_shell.into_iter().map(InspectAction::Act));
     }
-    robots_without_answer(ui, session);
     ui.add_space(space::SMALL);
     ui.weak(text!("operator-last-parts"));
     ui.add_space(space::SMALL);

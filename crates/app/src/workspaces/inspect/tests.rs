@@ -214,6 +214,7 @@ fn follow(session: &mut Session, inspected: &mut Inspected, stillness: MotionSta
         stillness: Some(stillness),
         standing: LiveVerdict::Counted(Box::new(counted)),
         rates: [None; 2],
+        inspection_rate: None,
         latency: None,
         held_up_by: None,
         num_inspected: 9,

@@ -15,7 +15,7 @@ pub struct InspectionRate {
 
 impl InspectionRate {
     /// True if fewer than half of the frames are inspected.
-    fn is_slow(self) -> bool {
+    pub fn is_slow(self) -> bool {
         2 * self.num_inspected < self.num_frames
     }
 
@@ -67,14 +67,19 @@ impl InspectionRateMeter {
         };
     }
 
+    /// The rate; `None` before the second frame.
+    pub(super) fn rate(&self) -> Option<InspectionRate> {
+        let (first, last) = (self.inspected.front()?, self.inspected.back()?);
+        let num_inspected = self.inspected.len() - 1;
+        (num_inspected > 0).then(|| InspectionRate {
+            num_inspected,
+            num_frames: usize::try_from(last.1 - first.1).unwrap_or(usize::MAX),
+        })
+    }
+
     /// The rate, if fewer than half of the frames are inspected.
     pub(super) fn slow(&self) -> Option<InspectionRate> {
-        let (first, last) = (self.inspected.front()?, self.inspected.back()?);
-        let rate = InspectionRate {
-            num_inspected: self.inspected.len() - 1,
-            num_frames: usize::try_from(last.1 - first.1).unwrap_or(usize::MAX),
-        };
-        rate.is_slow().then_some(rate)
+        self.rate().filter(|rate| rate.is_slow())
     }
 
     /// The rate, if a verdict has waited for it long enough to tell.
@@ -119,6 +124,18 @@ mod tests {
                 .iter()
                 .all(|(_, rate)| rate.is_none())
         );
+    }
+
+    #[test]
+    fn frames_are_counted_from_the_second_on_whether_or_not_they_are_few() {
+        let mut meter = InspectionRateMeter::default();
+        assert_eq!(meter.rate(), None);
+        for number in [0, 2, 3] {
+            meter.add(Duration::from_secs(number) / 30, number, false);
+        }
+        let rate = meter.rate().expect("three frames");
+        assert_eq!((rate.num_inspected, rate.num_frames), (2, 3));
+        assert!(!rate.is_slow() && meter.slow().is_none());
     }
 
     #[test]

@@ -206,6 +206,11 @@ impl LiveTracker {
         self.rate.add(self.last_at, number, waits);
     }
 
+    /// How many of the camera's frames are inspected; `None` before the second one.
+    pub fn inspection_rate(&self) -> Option<InspectionRate> {
+        self.rate.rate()
+    }
+
     /// The rate, if fewer than half of the camera's frames are inspected.
     pub fn slow(&self) -> Option<InspectionRate> {
         self.rate.slow()

@@ -2,7 +2,7 @@
 
 use super::{HistoryBuffer, Inner};
 use crate::history::{
-    drift::{MAX_POSES, PoseRecord},
+    drift::PoseRecord,
     entry::{Record, Summary, png_of},
     error::HistoryError,
     filter::Filter,
@@ -155,10 +155,10 @@ impl HistoryBuffer {
     }
 
     /// As [`History::poses`], including inspections that are not written yet.
-    pub fn poses(&self, filter: &Filter) -> Result<Vec<PoseRecord>, HistoryError> {
-        let written = |history: &History| history.poses(filter);
+    pub fn poses(&self, filter: &Filter, most: usize) -> Result<Vec<PoseRecord>, HistoryError> {
+        let written = |history: &History| history.poses(filter, most);
         let mut poses = self.with_waiting(filter, written, PoseRecord::of_record)?;
-        poses.drain(..poses.len().saturating_sub(MAX_POSES));
+        poses.drain(..poses.len().saturating_sub(most));
         Ok(poses)
     }
 

@@ -65,7 +65,7 @@ fn a_run_comes_back_whole_with_its_curve_and_counts_as_no_inspection() {
         (1, 1, 1)
     );
     assert_eq!(history.outcomes(&everything).expect("read").len(), 1);
-    assert_eq!(history.poses(&everything).expect("read").len(), 1);
+    assert_eq!(history.poses(&everything, 9).expect("read").len(), 1);
 }
 
 #[test]

@@ -15,7 +15,7 @@ pub(crate) use self::{
         apply, expect_anew, give_way, outdate_shown, restart_consensus, show_unseen,
         source_changed, tell_if_lost,
     },
-    status::{chip, words},
+    status::{figures, motion, name, source_state},
 };
 pub use self::{
     state::{close, update},

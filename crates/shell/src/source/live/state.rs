@@ -1006,6 +1006,7 @@ mod tests {
             stillness: None,
             standing: LiveVerdict::Open,
             rates: [None; 2],
+            inspection_rate: None,
             latency: None,
             held_up_by: None,
             num_inspected: 1,

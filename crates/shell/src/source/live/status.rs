@@ -1,39 +1,28 @@
-//! Status of following the source as text: on the verdict card, or in the bar while the card is not in front.
+//! Following the source as text: whether the scene moves, what the verdict rests on, and figures.
 
 use egui::{Button, RichText, Ui, Vec2};
 
-use super::{
-    state::megabytes,
-    work::{LiveStatus, SourceState},
+use super::{state::megabytes, work::LiveStatus};
+use crate::{
+    session::{Session, Source},
+    source::live::SourceState,
 };
-use crate::session::{Session, Source};
 use capture::SourceSpec;
 use inspection::pipeline::live::{ConsensusVerdict, LiveVerdict, MotionState};
-use ui::{
-    language::text,
-    theme::{Theme, font, space},
-    widgets::{Mark, line_mark, status_label},
-};
+use ui::{language::text, theme::space, widgets::Mark};
 
-/// Height of the head of the card, logical pixels: constant, so that nothing below moves.
-const HEIGHT: f32 = 64.0;
+/// Height of the line above the button, logical pixels: constant, so that nothing below moves.
+const HEIGHT: f32 = 20.0;
 
-/// Draws the head of the verdict card while the source is followed. True if recording shall start or stop.
+/// Draws the head of the verdict card while the source is followed: what the verdict rests on, and the recording. True if
+/// recording shall start or stop.
 pub fn card(ui: &mut Ui, session: &Session) -> bool {
-    let theme = Theme::of(ui);
-    let (sign, words) = words(session);
-    let small = |text: String| RichText::new(text).small().weak();
     let size = Vec2::new(ui.available_width(), HEIGHT);
     ui.allocate_ui(size, |ui| {
         ui.set_min_size(size);
-        ui.spacing_mut().item_spacing.y = 3.0;
-        ui.horizontal(|ui| {
-            line_mark(ui, 16.0, 7.5, sign);
-            status_label(ui, &words, font::body_strong(), theme.text);
-        });
         let status = session.live.status.as_ref();
-        ui.label(small(status.map_or_else(String::new, evidence_text)));
-        ui.label(small(status.map_or_else(String::new, figures)));
+        let evidence = status.map_or_else(String::new, evidence_text);
+        ui.label(RichText::new(evidence).small().weak());
     });
     let is_toggled = record(ui, session);
     ui.separator();
@@ -67,54 +56,37 @@ fn record(ui: &mut Ui, session: &Session) -> bool {
     response.clicked()
 }
 
-/// Draws the status and the rates beside it, if there is room.
-pub(crate) fn chip(ui: &mut Ui, session: &Session) {
-    let theme = Theme::of(ui);
-    let (sign, words) = words(session);
-    ui.add_space(space::SMALL);
-    line_mark(ui, 16.0, 7.5, sign);
-    let rates = session.live.status.as_ref().map(figures);
-    let text = match rates {
-        Some(rates) if !rates.is_empty() && ui.available_width() > 320.0 => {
-            format!("{words} · {rates}")
-        }
-        _ => words,
-    };
-    status_label(ui, &text, font::body(), theme.weak_text);
+/// The state of the followed source; `None` while none is followed.
+pub(crate) fn source_state(session: &Session) -> Option<&SourceState> {
+    let status = session.live.status.as_ref();
+    let state = status.map_or(&SourceState::Opening, |status| &status.source);
+    session.is_live().then_some(state)
 }
 
-/// Returns the most important status, with its mark.
-pub(crate) fn words(session: &Session) -> (Mark, String) {
-    let name = match &session.source {
+/// Returns whether the scene before the followed source moves, with its mark; `None` while no frames arrive.
+pub(crate) fn motion(session: &Session) -> Option<(Mark, String)> {
+    let status = session.live.status.as_ref();
+    let status = status.filter(|status| status.source == SourceState::Running)?;
+    Some(match status.stillness {
+        None => (Mark::Runs, text!("live-file-is-part")),
+        Some(MotionState::Watching) => (Mark::Open, text!("live-looking")),
+        Some(MotionState::Moving) => (Mark::Open, text!("live-moving")),
+        Some(MotionState::Steady { lasting, .. }) => {
+            let seconds = format!("{:.1}", lasting.as_secs_f64());
+            (Mark::Runs, text!("live-steady-for", seconds = seconds))
+        }
+    })
+}
+
+/// Returns what following this source is called.
+pub(crate) fn name(source: &Source) -> String {
+    match source {
         Source::Camera(spec) if matches!(**spec, SourceSpec::Recording(_)) => text!("live-playing"),
         Source::Camera(spec) if matches!(**spec, SourceSpec::Watched(_)) => text!("live-watching"),
         Source::Camera(_) | Source::Cell(_) | Source::File(_) | Source::Scan(_) => {
             text!("shell-live")
         }
-    };
-    let Some(status) = &session.live.status else {
-        let opening = text!("live-opening");
-        return (Mark::Open, format!("{name} · {opening}"));
-    };
-    if status.held_up_by.is_some() && status.source == SourceState::Running {
-        let what = text!("live-too-slow");
-        return (Mark::Look, format!("{name} · {what}"));
     }
-    let (sign, what) = match (&status.source, status.stillness) {
-        (SourceState::Lost(_), _) => (Mark::Bad, text!("live-lost")),
-        (SourceState::Opening, _) => (Mark::Open, text!("live-opening")),
-        (SourceState::Running, None) => (Mark::Runs, text!("live-file-is-part")),
-        (SourceState::Running, Some(MotionState::Watching)) => (Mark::Open, text!("live-looking")),
-        (SourceState::Running, Some(MotionState::Moving)) => (Mark::Open, text!("live-moving")),
-        (SourceState::Running, Some(MotionState::Steady { lasting, .. })) => (
-            Mark::Runs,
-            text!(
-                "live-steady-for",
-                seconds = format!("{:.1}", lasting.as_secs_f64())
-            ),
-        ),
-    };
-    (sign, format!("{name} · {what}"))
 }
 
 /// Describes what the verdict is based on.
@@ -145,7 +117,7 @@ fn evidence_text(status: &LiveStatus) -> String {
 }
 
 /// Formats rates, latency and dropped frames. Captures of a watched folder come one by one, without a rate.
-fn figures(status: &LiveStatus) -> String {
+pub(crate) fn figures(status: &LiveStatus) -> String {
     let [captured, inspected] = status
         .rates
         .map(|rate| rate.map_or_else(|| "–".to_owned(), |rate| format!("{rate:.0}")));
@@ -165,7 +137,6 @@ mod tests {
     use std::time::Duration;
 
     use super::*;
-    use inspection::pipeline::live::InspectionRate;
 
     fn running(stillness: Option<MotionState>) -> LiveStatus {
         LiveStatus {
@@ -173,6 +144,7 @@ mod tests {
             stillness,
             standing: LiveVerdict::Open,
             rates: [Some(0.0); 2],
+            inspection_rate: None,
             latency: Some(Duration::from_millis(88)),
             held_up_by: None,
             num_inspected: 8,
@@ -183,43 +155,23 @@ mod tests {
     }
 
     #[test]
-    fn a_source_has_no_tick_because_that_would_be_a_verdict() {
+    fn a_scene_at_rest_has_no_tick_because_that_would_be_a_verdict() {
         let steady = MotionState::Steady {
             since: Duration::ZERO,
             lasting: Duration::from_secs(9),
         };
         let all = [MotionState::Watching, MotionState::Moving, steady];
-        for stillness in all.into_iter().map(Some).chain([None]) {
-            let mut session = Session::default();
-            session.live.status = Some(running(stillness));
-            let (sign, words) = words(&session);
-            assert_ne!(sign, Mark::Good, "{words}");
-        }
-    }
-
-    #[test]
-    fn while_a_verdict_waits_for_a_slow_computer_the_source_says_so() {
         let mut session = Session::default();
-        let says = |session: &Session| {
-            let (_, words) = words(session);
-            words.contains("computer too slow")
-        };
-        let slow = LiveStatus {
-            held_up_by: Some(InspectionRate {
-                num_inspected: 2,
-                num_frames: 30,
-            }),
-            ..running(Some(MotionState::Watching))
-        };
-        session.live.status = Some(slow.clone());
-        assert!(says(&session), "{}", words(&session).1);
+        for stillness in all.into_iter().map(Some).chain([None]) {
+            session.live.status = Some(running(stillness));
+            let (mark, words) = motion(&session).expect("frames arrive");
+            assert_ne!(mark, Mark::Good, "{words}");
+        }
         session.live.status = Some(LiveStatus {
             source: SourceState::Opening,
-            ..slow
+            ..running(Some(steady))
         });
-        assert!(!says(&session));
-        session.live.status = Some(running(Some(MotionState::Watching)));
-        assert!(!says(&session));
+        assert_eq!(motion(&session), None);
     }
 
     #[test]

@@ -156,6 +156,8 @@ pub struct LiveStatus {
     pub rates: [Option<f64>; 2],
     /// Median time from a frame's arrival to its verdict, over the last frames.
     pub latency: Option<Duration>,
+    /// How many of the camera's frames are inspected, once two were.
+    pub inspection_rate: Option<InspectionRate>,
     /// The rate, if a verdict has waited two seconds or longer because fewer than half of the camera's frames are inspected.
     pub held_up_by: Option<InspectionRate>,
     /// Frames inspected since the start.
@@ -578,6 +580,7 @@ impl<'a> LiveSession<'a> {
             standing: self.standing.clone(),
             rates: [feed.rate, self.rate.per_second(Instant::now())],
             latency: latencies.get(latencies.len() / 2).copied(),
+            inspection_rate: (self.tracker.as_ref()).and_then(LiveTracker::inspection_rate),
             held_up_by: self.tracker.as_ref().and_then(LiveTracker::held_up_by),
             num_inspected: self.num_inspected,
             num_dropped: feed.num_dropped.saturating_sub(self.dropped_before),

@@ -1,0 +1,201 @@
+//! `partsight history drift`: mean, spread and trend of parts, and which will be refused.
+
+use std::{cmp::Reverse, collections::BTreeMap};
+
+use clap::Args;
+use serde::Serialize;
+
+use super::{FilterArgs, show::SCHEMA};
+use crate::cli::{
+    LibraryChoice, Outcome,
+    console::{Advised as _, Console, Table},
+};
+use geometry::units::Metres;
+use inspection::library::Library;
+use records::history::{
+    DriftQuantity, Filter, History, LEAST_FOR_SPREAD, Limit, MAX_POSES, PartDrift, QuantityDrift,
+    StoredVerdict, Trend,
+};
+use stages::reference::ReferenceParams;
+
+/// Which inspections, and how they are shown.
+#[derive(Debug, Args)]
+pub(in crate::cli) struct DriftArgs {
+    #[command(flatten)]
+    filter: FilterArgs,
+    /// Write one line of JSON per part, and nothing else, to standard output
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    library: LibraryChoice,
+}
+
+/// A part as `--json` writes it.
+#[derive(Serialize)]
+struct PartLine<'a> {
+    schema: u32,
+    part: &'a str,
+    /// Number of inspections that were compared.
+    inspections: usize,
+    quantities: Vec<QuantityLine>,
+}
+
+#[derive(Serialize)]
+struct QuantityLine {
+    quantity: DriftQuantity,
+    mean: f64,
+    /// Three standard deviations below and above the mean.
+    low: f64,
+    high: f64,
+    /// Beyond this, parts are refused; null if they are not.
+    limit: Option<f64>,
+    /// Null if noise explains what changes.
+    trend: Option<Trend>,
+}
+
+impl QuantityLine {
+    fn of(of: &QuantityDrift) -> Self {
+        let [low, high] = of.band;
+        Self {
+            quantity: of.quantity,
+            mean: of.mean,
+            low,
+            high,
+            limit: of.limit.map(Limit::value),
+            trend: of.trend,
+        }
+    }
+}
+
+pub(super) fn run(
+    history: &History,
+    asked: &DriftArgs,
+    console: &mut Console,
+) -> anyhow::Result<Outcome> {
+    let filter = asked.filter.filter();
+    let parts = accepted_parts(history, &filter)?;
+    // Without its references the position of a part is not known, and the rest is.
+    let loaded = asked
+        .library
+        .load(&ReferenceParams::default(), console)
+        .ok();
+    let library = loaded.map(|(_, load)| load.library);
+    let mut found = Vec::new();
+    for part in parts {
+        let of_part = Filter {
+            part: Some(part.clone()),
+            ..filter.clone()
+        };
+        let poses = history.poses(&of_part, MAX_POSES).advised()?;
+        let drift = PartDrift::of(&poses, |name| middle_of(name, library.as_ref()?));
+        found.extend(drift.map(|drift| (part, drift)));
+    }
+    if asked.json {
+        for (part, drift) in &found {
+            console.line(&line_of(part, drift));
+        }
+    } else {
+        show(&found, console);
+    }
+    let warned = found.iter().any(|(_, drift)| drift.warning().is_some());
+    Ok(Outcome::accepted_if(!warned))
+}
+
+fn middle_of(name: &str, library: &Library) -> Option<nalgebra::Point3<f64>> {
+    let mut references = library.references.iter();
+    references.find(|of| of.enrolled_as == name)?.middle()
+}
+
+/// Names of the accepted parts, the one accepted most often first.
+fn accepted_parts(history: &History, filter: &Filter) -> anyhow::Result<Vec<String>> {
+    let outcomes = history.outcomes(filter).advised()?;
+    let mut counts: BTreeMap<String, usize> = BTreeMap::new();
+    for outcome in outcomes {
+        if let (StoredVerdict::Accepted, Some(part)) = (outcome.verdict, outcome.part) {
+            *counts.entry(part).or_default() += 1;
+        }
+    }
+    let mut parts: Vec<(String, usize)> = counts.into_iter().collect();
+    parts.sort_by_key(|(_, num)| Reverse(*num));
+    Ok(parts.into_iter().map(|(part, _)| part).collect())
+}
+
+fn line_of(part: &str, drift: &PartDrift) -> String {
+    let line = PartLine {
+        schema: SCHEMA,
+        part,
+        inspections: drift.at.len(),
+        quantities: drift.quantities.iter().map(QuantityLine::of).collect(),
+    };
+    serde_json::to_string(&line).expect("numbers and text have a JSON form")
+}
+
+fn show(found: &[(String, PartDrift)], console: &mut Console) {
+    let mut table = Table::new(&[
+        "PART", "QUANTITY", "NUMBER", "MEAN", "3σ FROM", "TO", "LIMIT", "TREND",
+    ]);
+    for (part, drift) in found {
+        for of in &drift.quantities {
+            let written = |value: f64| written(of.quantity, value);
+            let [low, high] = of.band;
+            let limit = of.limit.map(|limit| written(limit.value()));
+            let trend = of.trend.map(|trend| {
+                let Trend { from, to, over, .. } = trend;
+                format!("{} to {} in {over}", written(from), written(to))
+            });
+            table.row([
+                part.clone(),
+                title(of.quantity).to_owned(),
+                drift.at.len().to_string(),
+                written(of.mean),
+                written(low),
+                written(high),
+                limit.unwrap_or_default(),
+                trend.unwrap_or_default(),
+            ]);
+        }
+    }
+    console.table(&table);
+    if found.is_empty() {
+        console.note(&format_args!(
+            "no part was accepted at least {LEAST_FOR_SPREAD} times"
+        ));
+    }
+    for (part, drift) in found {
+        let Some(warning) = drift.warning() else {
+            continue;
+        };
+        console.advise(
+            &format_args!(
+                "warning: {part} drifts: at this trend, single parts are refused after {} more inspections ({}, limit {})",
+                warning.refuses_in,
+                title(warning.quantity),
+                written(warning.quantity, warning.limit)
+            ),
+            &"Look for the cause before: clean the window of the camera, then check the cell (partsight cell check), the \
+              hangers and the parts",
+        );
+    }
+}
+
+fn title(quantity: DriftQuantity) -> &'static str {
+    match quantity {
+        DriftQuantity::Score => "score",
+        DriftQuantity::ShiftBoundM => "bound of position error",
+        DriftQuantity::RmsM => "rms",
+        DriftQuantity::XM => "x",
+        DriftQuantity::YM => "y",
+        DriftQuantity::ZM => "z",
+    }
+}
+
+fn written(quantity: DriftQuantity, value: f64) -> String {
+    match quantity {
+        DriftQuantity::Score => format!("{value:.3}"),
+        DriftQuantity::ShiftBoundM
+        | DriftQuantity::RmsM
+        | DriftQuantity::XM
+        | DriftQuantity::YM
+        | DriftQuantity::ZM => format!("{:.2} mm", Metres(value).mm()),
+    }
+}
