@@ -94,7 +94,7 @@ Connections are neither encrypted nor authenticated. Without an address, only pr
 Exit codes: 0 ended by Ctrl-C, 2 could not run.")]
 pub(super) struct ServeArgs {
     /// The camera, recording or watched folder whose frames are inspected (partsight capture --help)
-    #[arg(long, value_name = "SOURCE", value_parser = parse_running_source, required_unless_present = "simulated")]
+    #[arg(long, value_name = "SOURCE", value_parser = parse_running_source, required_unless_present = "simulated", conflicts_with = "trial")]
     source: Option<SourceSpec>,
     /// Protocol and port, or IP address and port; may be given several times; default: ascii=30100, unless --http is given
     #[arg(long, value_name = "PROTOCOL=PORT", value_parser = parse_listen)]

@@ -217,6 +217,8 @@ impl CellCamera {
     }
 }
 
+/// The arm of every simulated cell.
+pub const ARM: &str = "irb4600";
 /// The base of the arm in the base frame of the cell.
 const ARM_BACK_M: f64 = -1.35;
 /// Number of frames that a target is recorded from.
@@ -298,7 +300,7 @@ impl<'a> SimulatedCell<'a> {
                 let robot_from_camera = self.robot_from_part * self.part_from_goal;
                 let looks = (0..NUM_RECORDED).filter_map(|k| {
                     let seed = self.setup.noise_seed(u64::from(u32::MAX) + k);
-                    let frame = self.frame(&robot_from_camera, Duration::ZERO, seed)?;
+                    let frame = self.frame_from(&robot_from_camera, Duration::ZERO, seed)?;
                     Some(self.inspected(&frame, Duration::ZERO))
                 });
                 let looks: Vec<Look> = looks.collect();
@@ -402,7 +404,7 @@ impl<'a> SimulatedCell<'a> {
     }
 
     /// A frame from the camera's true pose; `None` of one that is lost.
-    pub(super) fn frame(
+    fn frame_from(
         &self,
         robot_from_camera: &RigidTransform,
         at: Duration,
@@ -485,10 +487,15 @@ impl<'a> SimulatedCell<'a> {
         protocol.stream(&self.placed)
     }
 
-    /// What the inspection of the frame with this number says, taken with the flange here; `None` if it is lost.
-    pub fn look(&self, flange: &RigidTransform, at: Duration, number: u64) -> Option<Look> {
+    /// The frame with this number, taken with the flange here; `None` if it is lost.
+    pub fn frame(&self, flange: &RigidTransform, at: Duration, number: u64) -> Option<DepthFrame> {
         let robot_from_camera = flange * self.flange_from_camera;
-        let frame = self.frame(&robot_from_camera, at, self.setup.noise_seed(number))?;
+        self.frame_from(&robot_from_camera, at, self.setup.noise_seed(number))
+    }
+
+    /// What the inspection of that frame says.
+    pub fn look(&self, flange: &RigidTransform, at: Duration, number: u64) -> Option<Look> {
+        let frame = self.frame(flange, at, number)?;
         Some(self.inspected(&frame, self.dated(at)))
     }
 
@@ -525,7 +532,7 @@ fn placed_arm() -> Result<PlacedArm, ArmError> {
     // The gun is below the camera and so long that the camera still sees the part, beyond its least range.
     let camera_from_nozzle = from_euler_zyx([0.0, 0.0, 0.0, 0.0, 0.12, 0.42]);
     Ok(PlacedArm {
-        arm: Arm::named("irb4600")?,
+        arm: Arm::named(ARM)?,
         robot_from_base: RigidTransform::translation(ARM_BACK_M, 0.0, 0.0),
         flange_from_nozzle: flange_from_camera() * camera_from_nozzle,
         gun_radius: GUN_RADIUS_M,

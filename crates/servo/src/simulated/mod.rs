@@ -12,7 +12,7 @@ mod single_moves;
 pub use self::{
     arm::{ArmDynamics, SimulatedArm},
     cell::{
-        CellCamera, CellSetup, Disturbance, HandEyeError, SimulatedCell, SimulatedCellError,
+        ARM, CellCamera, CellSetup, Disturbance, HandEyeError, SimulatedCell, SimulatedCellError,
         SimulatedTarget,
     },
     controller::{SimulatedController, StreamProtocol},

@@ -21,6 +21,8 @@ pub struct SimulatedTrial {
     pub hand_eye: HandEyeError,
     /// Play of each joint.
     pub play: Radians,
+    /// Time between two reports of the arm.
+    pub cycle: Duration,
 }
 
 /// Time between two frames of the simulated camera.
@@ -36,6 +38,7 @@ impl Default for SimulatedTrial {
                 turn: Radians::from_degrees(2.0),
             },
             play: Radians(2.0 * ArmDynamics::default().backlash),
+            cycle: ArmDynamics::default().period,
         }
     }
 }
@@ -45,13 +48,15 @@ impl SimulatedTrial {
     pub const DELAYS_MS: RangeInclusive<f64> = 0.0..=1000.0;
     /// Valid plays of a joint, degrees.
     pub const PLAYS_DEG: RangeInclusive<f64> = 0.0..=0.5;
+    /// Valid times between two reports, ms: those of controllers.
+    pub const CYCLES_MS: RangeInclusive<f64> = 2.0..=50.0;
     /// Valid errors of the calibration, mm.
     pub const SHIFTS_MM: RangeInclusive<f64> = 0.0..=100.0;
     /// Valid errors of the calibration, degrees.
     pub const TURNS_DEG: RangeInclusive<f64> = 0.0..=20.0;
 
     /// Arranges the cell around a part.
-    pub(super) fn arrange<'a>(
+    pub fn arrange<'a>(
         &self,
         part: &str,
         library: &'a Library,
@@ -69,6 +74,7 @@ impl SimulatedTrial {
             frame_period: FRAME_PERIOD,
             delay: self.delay,
             dynamics: ArmDynamics {
+                period: self.cycle,
                 backlash: 0.5 * self.play.0,
                 ..ArmDynamics::default()
             },
