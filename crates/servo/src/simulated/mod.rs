@@ -6,6 +6,7 @@
 mod arm;
 mod cell;
 mod controller;
+mod part;
 mod run;
 mod single_moves;
 
@@ -16,6 +17,7 @@ pub use self::{
         SimulatedTarget,
     },
     controller::{SimulatedController, StreamProtocol},
+    part::{CellPart, ScannedPart},
     run::{RunResult, Sample, run},
     single_moves::run_in_single_moves,
 };

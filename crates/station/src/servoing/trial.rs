@@ -6,7 +6,7 @@ use super::{ServoRunError, reference_of};
 use geometry::units::{Metres, Radians};
 use inspection::library::Library;
 use servo::simulated::{
-    ArmDynamics, CellSetup, Disturbance, HandEyeError, SimulatedCell, SimulatedTarget,
+    ArmDynamics, CellPart, CellSetup, Disturbance, HandEyeError, SimulatedCell, SimulatedTarget,
 };
 use simulate::PartKind;
 
@@ -62,11 +62,9 @@ impl SimulatedTrial {
         library: &'a Library,
     ) -> Result<SimulatedCell<'a>, ServoRunError> {
         reference_of(library, part)?;
-        let kind = PartKind::from_name(part).ok_or_else(|| ServoRunError::NotSimulated {
-            part: part.to_owned(),
-        })?;
+        let kind = kind_of(part)?;
         let setup = CellSetup {
-            kind,
+            part: CellPart::Simulated(kind),
             target: SimulatedTarget::Standard,
             noise: 1.0,
             start: (Metres(0.25), Radians::from_degrees(25.0)),
@@ -83,4 +81,11 @@ impl SimulatedTrial {
         };
         Ok(SimulatedCell::arrange(setup, library)?)
     }
+}
+
+/// The simulated part of this name.
+pub(super) fn kind_of(part: &str) -> Result<PartKind, ServoRunError> {
+    PartKind::from_name(part).ok_or_else(|| ServoRunError::NotSimulated {
+        part: part.to_owned(),
+    })
 }
