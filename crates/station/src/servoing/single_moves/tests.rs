@@ -125,6 +125,7 @@ impl Inspector for CellInspector<'_> {
                 looks,
                 captured: asked.at,
                 marks: Answer::SIMULATED,
+                last: None,
             })
         })
     }
@@ -223,10 +224,6 @@ fn served(
         servo_setup.calibration = Some(calibration);
     }
     change(&mut servo_setup);
-    let max_move = PoseDelta {
-        shift: Metres(0.1),
-        rotation: Radians::from_degrees(10.0),
-    };
     let number_of = |name: &str| {
         let index = library.references.iter().position(|one| one.name == name);
         index.expect("enrolled") as u32 + 1
@@ -275,7 +272,8 @@ fn served(
         world: &world,
         library: &library,
         finder,
-        moves: SingleMoves::new(servo_setup, max_move, "camera".into()).expect("sound"),
+        moves: SingleMoves::new(servo_setup, SingleMoves::USUAL_LONGEST, "camera".into())
+            .expect("sound"),
         is_ending: &is_ending,
     };
     thread::scope(|scope| {
