@@ -350,7 +350,8 @@ fn a_robot_that_servoes_is_moved_within_the_limits_of_the_page_servo() {
         .state()
         .history()
         .servo_runs(&Filter::default(), 0, 10);
-    let [run] = &runs.expect("read").rows[..] else {
+    let rows = runs.expect("read").rows;
+    let [run] = &rows[..] else {
         panic!("the first run alone has ended");
     };
     let stopped = run.stopped.as_ref().map(servo::StopReason::kind);
