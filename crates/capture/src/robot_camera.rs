@@ -3,7 +3,7 @@
 //! ```text
 //! frame          ─►  a head, and a picture if one was delivered since the last request
 //! time           ─►  a head; from now on the robot waits until each frame has been inspected
-//! inspected 12   ─►  a head, whose time is when frame 12 was delivered
+//! inspected 12   ─►  a head, whose time is when frame 12 was due
 //! ```
 //!
 //! Requests and heads are lines; a head is JSON. A picture follows its head: its depths row by row, two bytes each, the low one
@@ -63,7 +63,7 @@ impl fmt::Display for RobotRequest {
 /// What a simulated robot's camera answers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RobotReply {
-    /// The robot's time, or when the frame of the request was delivered.
+    /// The robot's time, or when the frame of the request was due.
     pub at: Duration,
     /// A frame, with its number since the robot was started.
     pub frame: Option<(u64, DepthFrame)>,

@@ -46,10 +46,11 @@ struct Frames {
     /// When the next one is taken.
     next: Duration,
     num_taken: u64,
-    /// Those that were taken, and when they are due.
+    /// Those that were taken and not delivered, and when they are due.
     coming: VecDeque<(Duration, u64, DepthFrame)>,
-    /// Numbers of those that were delivered and may not have been inspected, and when they were delivered.
-    delivered: VecDeque<(u64, Duration)>,
+    /// Numbers of those that were taken and may not have been inspected, and when they are due: however long a slow computer draws
+    /// one, it counts from then on.
+    pending: VecDeque<(u64, Duration)>,
     /// Number of connections that ask for the time, and since when there are any.
     num_clocks: usize,
     clock_since: Duration,
@@ -59,8 +60,8 @@ struct Frames {
 const MAX_CONNECTIONS: usize = 8;
 /// Longest request.
 const MAX_REQUEST_BYTES: usize = 64;
-/// Most frames that are remembered as delivered: if nobody says that they are inspected, the oldest are forgotten.
-const MAX_DELIVERED: usize = 100;
+/// Most frames that are remembered: if nobody says that they are inspected, the oldest are forgotten.
+const MAX_PENDING: usize = 100;
 /// How often it looks whether the robot's program has ended.
 const POLL_INTERVAL: Duration = Duration::from_millis(20);
 /// How long a connection may take to take what it asked for.
@@ -157,43 +158,43 @@ impl RobotCamera<'_> {
             },
             RobotRequest::Inspected(number) => {
                 let mut frames = lock(&self.frames);
-                let known = frames.delivered.iter().find(|(one, _)| *one == number);
-                let at = known.map_or_else(|| self.robot.now().0, |(_, at)| *at);
-                frames.delivered.retain(|(one, _)| *one > number);
+                let known = frames.pending.iter().find(|(one, _)| *one == number);
+                let at = known.map_or_else(|| self.robot.now().0, |(_, due)| *due);
+                frames.pending.retain(|(one, _)| *one > number);
                 self.set_end(&frames);
                 RobotReply { at, frame: None }
             }
         }
     }
 
-    /// Takes a frame if one is due, and delivers the newest that was not delivered and whose delay is over.
+    /// Takes a frame if it is time, and delivers the newest one that is due.
     fn next_frame(&self) -> RobotReply {
         let setup = self.cell.setup();
         let (now, flange) = self.robot.now();
         let mut frames = lock(&self.frames);
         if frames.next <= now {
+            let due = now + setup.delay;
             frames.next = now + setup.frame_period;
             frames.num_taken += 1;
             let number = frames.num_taken;
-            // The time is asked for meanwhile.
+            if frames.pending.len() == MAX_PENDING {
+                frames.pending.pop_front();
+            }
+            frames.pending.push_back((number, due));
+            self.set_end(&frames);
+            // Others ask for the time meanwhile.
             drop(frames);
             let frame = self.cell.frame(&flange, now, number);
             frames = lock(&self.frames);
-            frames
-                .coming
-                .extend(frame.map(|frame| (now + setup.delay, number, frame)));
+            match frame {
+                Some(frame) => frames.coming.push_back((due, number, frame)),
+                None => frames.pending.retain(|(one, _)| *one != number),
+            }
         }
         let now = self.robot.now().0;
         let mut newest = None;
         while let Some((_, number, frame)) = frames.coming.pop_front_if(|(due, ..)| *due <= now) {
             newest = Some((number, frame));
-        }
-        if let Some((number, _)) = newest {
-            if frames.delivered.len() == MAX_DELIVERED {
-                frames.delivered.pop_front();
-            }
-            frames.delivered.push_back((number, now));
-            self.set_end(&frames);
         }
         RobotReply {
             at: now,
@@ -210,10 +211,10 @@ impl RobotCamera<'_> {
         self.set_end(&frames);
     }
 
-    /// Lets the robot go on for a while after the first frame that may not have been inspected.
+    /// Lets the robot go on for a while after the first frame is due that may not have been inspected.
     fn set_end(&self, frames: &Frames) {
-        let first = frames.delivered.front().filter(|_| frames.num_clocks > 0);
-        let until = first.map(|(_, at)| frames.clock_since.max(*at) + MAX_AHEAD);
+        let first = frames.pending.front().filter(|_| frames.num_clocks > 0);
+        let until = first.map(|(_, due)| frames.clock_since.max(*due) + MAX_AHEAD);
         self.robot.go_on_until(until);
     }
 }

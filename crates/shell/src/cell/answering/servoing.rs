@@ -77,7 +77,7 @@ impl Servoing {
         }
         self.end(history);
         check_source(source).map_err(|why| Problem::of(why.kind(), &why))?;
-        let set_up = || {
+        let set_up = || -> Result<SingleMoves, UserError> {
             let calibration = now.servo.calibration.as_deref();
             let calibration = calibration.ok_or_else(not_calibrated)?;
             let program = now.servo.program.target()?;
@@ -86,7 +86,7 @@ impl Servoing {
                 .map_err(|error| UserError::of(&error))
         };
         self.problem = None;
-        set_up().map_err(|problem: UserError| {
+        set_up().map_err(|problem| {
             self.problem = Some(problem);
             Problem::new(
                 "no_setup",
