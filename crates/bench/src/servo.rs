@@ -98,7 +98,7 @@ fn surface_of(scene: &SceneCloud, seen: &SegmentedPart) -> Option<TriangleMesh> 
     let vertices = seen.cloud.points.clone();
     let mut triangles = Vec::new();
     for index in seen.indices.iter().map(|index| *index as usize) {
-        if (index + 1) % width == 0 {
+        if (index + 1).is_multiple_of(width) {
             continue;
         }
         let at = |index: usize| vertex_at.get(index).copied().flatten();
@@ -341,7 +341,9 @@ pub fn servo_cases(
         cases.extend(map_each(num, num_workers, |k| {
             case(suite, first + k as u64, first_seed, parts)
         }));
-        (0..num).for_each(|_| after_each());
+        for _ in 0..num {
+            after_each();
+        }
         numbers.start += num as u64;
     }
     cases

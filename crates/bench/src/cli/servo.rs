@@ -69,10 +69,12 @@ fn made(args: &ServoArgs, console: &mut Console) -> anyhow::Result<Vec<ServoCase
     let first_seed = args.seed.unwrap_or(MEASURING_SEED);
     let numbers = args.first..args.first + args.runs.unwrap_or(NUM_RUNS);
     let mut parts = ServoParts::standard().advised()?;
-    for path in &args.reference {
+    for (number, path) in (1..).zip(&args.reference) {
         let (scene, _) = open_scene(path).advised()?;
         let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-        let name = PartName::new(&stem.to_lowercase()).advised()?;
+        // The parts that it hangs beside may have the same name.
+        let name = format!("captured_{number}_{}", stem.to_lowercase());
+        let name = PartName::new(&name).advised()?;
         parts.add_captured(&scene, name).advised()?;
     }
     let of_suites = ServoSuite::ALL.map(|suite| (suite, suite.numbers(&numbers)));
