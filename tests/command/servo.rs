@@ -168,6 +168,15 @@ fn what_cannot_be_servoed_is_refused_with_advice() {
             "cannot be used with",
         ),
         (to_path(&[]), "partsight library path fender"),
+        (
+            simulate(&["fender,grille", "--robot", "egm=6510"]),
+            "Give one",
+        ),
+        (simulate(&["fender", "--delay", "50"]), "--robot"),
+        (
+            simulate(&["fender", "--robot", "abb=6510"]),
+            "egm=192.168.1.10:6510",
+        ),
     ] {
         assert!(refusal.contains(advice), "{refusal}");
     }
@@ -272,4 +281,22 @@ fn a_robot_that_goes_down_on_the_way_stops_the_run_with_its_reason() {
     let run = place.accepted(&["history", "run", "1", "--json"]).json();
     assert_eq!(run["arrived"], false, "{run}");
     assert!(!place.path("end.json").exists());
+}
+
+#[test]
+fn a_robot_that_cannot_be_simulated_is_refused_with_advice() {
+    let place = Workplace::new();
+    for (more, advice) in [
+        (&["fender,grille", "--robot", "egm=6510"][..], "Give one"),
+        (&["fender", "--delay", "50"], "--robot"),
+        (&["fender", "--robot", "abb=6510"], "egm=192.168.1.10:6510"),
+        (
+            &["fender", "--robot", "egm=6510", "--rack", "3"],
+            "cannot be used with",
+        ),
+    ] {
+        let args = [&["simulate", "--out", "x.toml", "--part"][..], more];
+        let refusal = place.coded(2, &args.concat()).err;
+        assert!(refusal.contains(advice), "{refusal}");
+    }
 }
