@@ -168,15 +168,6 @@ fn what_cannot_be_servoed_is_refused_with_advice() {
             "cannot be used with",
         ),
         (to_path(&[]), "partsight library path fender"),
-        (
-            simulate(&["fender,grille", "--robot", "egm=6510"]),
-            "Give one",
-        ),
-        (simulate(&["fender", "--delay", "50"]), "--robot"),
-        (
-            simulate(&["fender", "--robot", "abb=6510"]),
-            "egm=192.168.1.10:6510",
-        ),
     ] {
         assert!(refusal.contains(advice), "{refusal}");
     }
