@@ -88,6 +88,7 @@ Sources:
   simulated:rack            racks of three parts come one after the other
                             options: side=right model=3 pose=facing|placed|hard|\"rx ry rz x y z\" noise=2
                             clutter=none|on-floor|in-front seed=7 fps=30; for line and rack, every=8 (seconds); for conveyor, speed=100 (mm/s)
+  simulated-robot:IP:PORT   the camera of a simulated robot (partsight simulate --robot)
   recording:DIR             a recording; an RGB-D sequence with its depth.txt; a folder of clouds or depth images
                             options: pace=step|as-taken|10 (frames a second) camera=intrinsics.json
   watch:DIR                 new files in a folder, each once it is complete; option: from=all to include earlier ones

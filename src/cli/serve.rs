@@ -32,10 +32,7 @@ use super::{
     trace::TraceChoice,
 };
 use capture::{OpenNiSpec, Pace, RealsenseSpec, RecordingSpec, SourceSpec};
-use geometry::{
-    rigid::PoseDelta,
-    units::{Metres, Radians},
-};
+use geometry::units::Metres;
 use inspection::{
     library::{Library, LibraryLoad, PartName},
     pipeline::MirrorTally,
@@ -94,7 +91,7 @@ Connections are neither encrypted nor authenticated. Without an address, only pr
 Exit codes: 0 ended by Ctrl-C, 2 could not run.")]
 pub(super) struct ServeArgs {
     /// The camera, recording or watched folder whose frames are inspected (partsight capture --help)
-    #[arg(long, value_name = "SOURCE", value_parser = parse_running_source, required_unless_present = "simulated")]
+    #[arg(long, value_name = "SOURCE", value_parser = parse_running_source, required_unless_present = "simulated", conflicts_with = "trial")]
     source: Option<SourceSpec>,
     /// Protocol and port, or IP address and port; may be given several times; default: ascii=30100, unless --http is given
     #[arg(long, value_name = "PROTOCOL=PORT", value_parser = parse_listen)]
@@ -141,7 +138,7 @@ pub(super) struct ServeArgs {
     #[command(flatten)]
     mqtt: MqttChoice,
     /// Longest move of a robot that servoes, mm (10 to 300); it turns by up to a tenth of a degree for each
-    #[arg(long, value_name = "MM", default_value_t = 100.0, value_parser = |text: &str| within(text, &(10.0..=300.0)), help_heading = SERVOING)]
+    #[arg(long, value_name = "MM", default_value_t = SingleMoves::USUAL_LONGEST.mm(), value_parser = |text: &str| within(text, &SingleMoves::LONGEST_MOVES_MM), help_heading = SERVOING)]
     longest_move: f64,
     /// A camera on a simulated arm instead, which looks at this part from where a robot says with SERVO that it stands
     #[arg(long, value_name = "PART", value_parser = parse_name, conflicts_with_all = ["source", "calibration", "robot_pose", "empty_cell", "seen_as", "arm", "nozzle", "volume"], help_heading = SERVOING)]
@@ -154,8 +151,6 @@ pub(super) struct ServeArgs {
 
 /// Heading of the options for robots that servo.
 const SERVOING: &str = "Servoing (SERVO)";
-/// Degrees that a longest move of a millimetre may turn.
-const DEGREES_PER_MM: f64 = 0.1;
 
 /// Where to listen if no protocol is asked for.
 const DEFAULT_ADDRESS: ListenAddress = ListenAddress {
@@ -213,11 +208,8 @@ impl ServeArgs {
     }
 
     fn moves(&self, setup: ServoSetup, source: &SourceSpec) -> anyhow::Result<SingleMoves> {
-        let max_move = PoseDelta {
-            shift: Metres::from_mm(self.longest_move),
-            rotation: Radians::from_degrees(DEGREES_PER_MM * self.longest_move),
-        };
-        SingleMoves::new(setup, max_move, source.to_string()).advised()
+        let longest = Metres::from_mm(self.longest_move);
+        SingleMoves::new(setup, longest, source.to_string()).advised()
     }
 }
 

@@ -63,7 +63,7 @@ pub(super) struct ServoArgs {
     #[command(flatten)]
     trial: TrialChoice,
     /// The camera (partsight capture --help)
-    #[arg(long, value_name = "SOURCE", value_parser = parse_source)]
+    #[arg(long, value_name = "SOURCE", value_parser = parse_source, conflicts_with = "trial")]
     source: Option<SourceSpec>,
     /// Where the camera sits, as written by `calibrate`; default: your own calibration
     #[arg(long, value_name = "FILE", conflicts_with = "simulated")]
@@ -93,7 +93,7 @@ pub(super) struct ServoArgs {
     json: bool,
 }
 
-fn parse_robot(text: &str) -> Result<RobotAddress, String> {
+pub(super) fn parse_robot(text: &str) -> Result<RobotAddress, String> {
     text.parse::<RobotAddress>()
         .map_err(|error| with_advice(&error))
 }

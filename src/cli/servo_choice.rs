@@ -73,13 +73,21 @@ const TARGETS: [Choice<NamedTarget>; 2] = [
     ("path-start", "The nozzle at the first point of the part's spray path; needs --nozzle, and a calibration from pairs", NamedTarget::PathStart),
 ];
 
-/// The simulated robot that is tried.
+/// A simulated robot that is tried, from a start that is drawn.
 #[derive(Debug, Args)]
-#[group(id = "trial", requires = "simulated", conflicts_with = "source")]
 pub(super) struct TrialChoice {
     /// Seed of the simulated start
-    #[arg(long, value_name = "N", default_value_t = SimulatedTrial::default().seed)]
+    #[arg(long, value_name = "N", default_value_t = SimulatedTrial::default().seed, requires = "simulated", conflicts_with = "source")]
     seed: u64,
+    #[command(flatten)]
+    robot: SimulatedRobotChoice,
+}
+
+/// How a simulated robot moves, and how its camera is calibrated. The commands that have it call the option that asks for the
+/// robot `simulated`.
+#[derive(Debug, Args)]
+#[group(id = "trial", requires = "simulated")]
+pub(super) struct SimulatedRobotChoice {
     #[arg(
         long, value_name = "MS",
         help = format!("How much later than it was taken a simulated frame counts, at least, ms ({})", from_to(&SimulatedTrial::DELAYS_MS)),
@@ -98,6 +106,13 @@ pub(super) struct TrialChoice {
         value_parser = |text: &str| within(text, &SimulatedTrial::PLAYS_DEG),
     )]
     backlash: Option<f64>,
+    #[arg(
+        long, value_name = "MS",
+        help = format!("Time between two reports of the simulated arm, ms ({})", from_to(&SimulatedTrial::CYCLES_MS)),
+        default_value_t = 1000.0 * SimulatedTrial::default().cycle.as_secs_f64(),
+        value_parser = |text: &str| within(text, &SimulatedTrial::CYCLES_MS),
+    )]
+    cycle: f64,
 }
 
 /// The default error of the calibration, as it is given.
@@ -129,18 +144,30 @@ fn parse_hand_eye(text: &str) -> Result<HandEyeError, String> {
 
 impl TrialChoice {
     pub(super) fn trial(&self) -> SimulatedTrial {
+        self.robot.trial(self.seed)
+    }
+
+    /// Says what is simulated.
+    pub(super) fn announce(&self, console: &Console) {
+        self.robot.announce(console);
+    }
+}
+
+impl SimulatedRobotChoice {
+    pub(super) fn trial(&self, seed: u64) -> SimulatedTrial {
         let default = SimulatedTrial::default();
         SimulatedTrial {
-            seed: self.seed,
+            seed,
             delay: Duration::from_secs_f64(self.delay / 1000.0),
             hand_eye: self.hand_eye.unwrap_or(default.hand_eye),
             play: self.backlash.map_or(default.play, Radians::from_degrees),
+            cycle: Duration::from_secs_f64(self.cycle / 1000.0),
         }
     }
 
     /// Says what is simulated.
     pub(super) fn announce(&self, console: &Console) {
-        let HandEyeError { shift, turn } = self.trial().hand_eye;
+        let HandEyeError { shift, turn } = self.trial(0).hand_eye;
         let (mm, degrees) = (shift.mm(), turn.degrees());
         console.note(&format_args!(
             "Simulated: an arm carries the camera; its calibration is wrong by up to {mm:.1} mm and {degrees:.1}°"

@@ -1,28 +1,36 @@
-//! `partsight simulate`: writes a frame of the simulated cell, or many of them as cases with their truth.
+//! `partsight simulate`: writes a frame of the simulated cell, or many of them as cases with their truth, or runs a robot in it.
 
 mod cases;
 mod line;
 mod rack;
+mod robot;
 mod scan;
 
-use std::path::{Path, PathBuf};
+use std::{
+    net::SocketAddr,
+    path::{Path, PathBuf},
+};
 
 use clap::{Args, builder::PossibleValuesParser};
 
 use super::{
     Outcome,
-    console::{Advised as _, Console, advised_error},
+    console::{Advised as _, Console, advised_error, with_advice},
     input::{Choice, choice, within},
+    servo::parse_robot,
+    servo_choice::SimulatedRobotChoice,
     write_json,
 };
 use files::{depth_png::intrinsics_path, save_cloud, write_depth_png};
 use geometry::depth_frame::DepthFrame;
 use geometry::written_pose::{GivenPose, parse_pose};
+use serve::parse_address;
 use simulate::{
     CellSetup, Clutter, ObjectKind, PartKind, PartPose, PoseRange, RackKind, Side, SimulatedObject,
     Stand, frame,
 };
 use stages::scene::scene_from_frame;
+use station::servoing::RobotAddress;
 
 /// Take a frame of a simulated cell: one part in front of a wall and a floor, with a Kinect's noise
 #[derive(Debug, Args)]
@@ -37,6 +45,7 @@ Examples:
   partsight simulate --rack 3 --rack-kind touching --seed 4 --out rack.png --truth rack.truth.json
   partsight simulate --cases tried --part objects,empty --num 9 --clutter on-floor
   partsight simulate --cases booth --booth --num 80
+  partsight simulate --robot egm=127.0.0.1:6510 --part fender --out cell.toml    a robot that another program servoes
 
 The same arguments give the same file. Cases are added to those already in the folder; their truth refers to the shipped \
 parts, and partsight evaluate counts how often they are recognised.
@@ -87,10 +96,11 @@ pub(super) struct SimulateArgs {
     /// With --rack: what is special about it
     #[arg(long, value_name = "KIND", value_parser = choice(&RACKS), default_value = "apart", requires = "rack", conflicts_with_all = ["part", "cases"])]
     rack_kind: RackKind,
-    /// The file: .pcd (organised), .png (16-bit depth, intrinsics in a .json beside it), .ply or .xyz (points only)
+    /// The file: .pcd (organised), .png (16-bit depth, intrinsics in a .json beside it), .ply or .xyz (points only);
+    /// with --robot, the calibration of its camera (.toml)
     #[arg(long, value_name = "FILE", required_unless_present_any = ["cases", "scan", "line"])]
     out: Option<PathBuf>,
-    /// Write what is known about the frame as JSON: the part, its pose, how much of it is seen
+    /// Write what is known about the frame as JSON: the part, its pose, how much of it is seen; with --robot, where it ended
     #[arg(long, value_name = "FILE")]
     truth: Option<PathBuf>,
     /// Instead of one file: write cases with their truth into this folder
@@ -113,6 +123,23 @@ pub(super) struct SimulateArgs {
     /// With --cases: how hard they are, in words; default: the placement
     #[arg(long, value_name = "WORDS", requires = "cases")]
     difficulty: Option<String>,
+    /// Instead of a frame: an arm whose camera looks at the part, with a controller that another program drives, as
+    /// partsight servo does. The address is the one that servo gets: egm=IP:PORT or rsi=IP:PORT of that program, ur=IP of this
+    /// computer. The seed sets the start
+    #[arg(id = "simulated", long = "robot", value_name = "PROTOCOL=ADDRESS", value_parser = parse_robot, conflicts_with_all = ["side", "model", "pose", "placement", "clutter", "stand", "booth", "noise", "rack", "cases", "scan", "line"], help_heading = ROBOT)]
+    robot: Option<RobotAddress>,
+    /// Port, or IP address and port, at which the camera of the robot gives its frames
+    #[arg(long, value_name = "PORT", value_parser = parse_camera, default_value = "30200", requires = "simulated", help_heading = ROBOT)]
+    camera: SocketAddr,
+    #[command(flatten, next_help_heading = ROBOT)]
+    arm: SimulatedRobotChoice,
+}
+
+/// Heading of the options for a robot.
+const ROBOT: &str = "A robot for another program (--robot)";
+
+fn parse_camera(text: &str) -> Result<SocketAddr, String> {
+    parse_address(text).map_err(|error| with_advice(&error))
 }
 
 /// Returns the names of all objects, then of groups of them.
@@ -217,6 +244,9 @@ const PLACEMENTS: [Choice<Placement>; 3] = [
 ];
 
 pub(super) fn run(args: &SimulateArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+    if let (Some(robot), Some(out)) = (&args.robot, &args.out) {
+        return robot::run(robot, out, args, console);
+    }
     if let Some(folder) = &args.cases {
         return cases::run(folder, args, console);
     }

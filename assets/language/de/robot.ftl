@@ -134,7 +134,7 @@ robot-moved-advice = Vor dem Lackieren einen Einrichter nachsehen lassen: Robote
 ## Answering robots
 
 robot-answer = Anfragen
-robot-answer-says = Roboter und SPS fragen über TCP nach einer Prüfung und erhalten Ergebnis und Pose, wie von partsight serve. Jeder Trigger wird aus einem Bild beantwortet, das die Quelle des Fensters danach liefert
+robot-answer-says = Roboter und SPS fragen über TCP nach einer Prüfung und erhalten Ergebnis und Pose, wie von partsight serve. Jeder Trigger wird aus einem Bild beantwortet, das die Quelle des Fensters danach liefert. SERVO nutzt Ziel und Grenzen der Seite Servo
 robot-protocol = Protokoll
 robot-port = Port, oder IP-Adresse und Port
 robot-pose-of-part = Lage des Teils

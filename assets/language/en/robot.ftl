@@ -134,7 +134,7 @@ robot-moved-advice = Have an engineer look before parts are painted: Robot…, C
 ## Answering robots
 
 robot-answer = Answer robots
-robot-answer-says = Robots and PLCs ask over TCP for an inspection and get verdict and pose, as from partsight serve. Each trigger is answered from a frame that the window's source delivers after it
+robot-answer-says = Robots and PLCs ask over TCP for an inspection and get verdict and pose, as from partsight serve. Each trigger is answered from a frame that the window's source delivers after it. SERVO uses target and limits of the page Servo
 robot-protocol = Protocol
 robot-port = Port, or IP address and port
 robot-pose-of-part = Where the part is

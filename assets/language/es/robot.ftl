@@ -134,7 +134,7 @@ robot-moved-advice = Pedir a un técnico que lo revise antes de pintar: Robot…
 ## Answering robots
 
 robot-answer = Peticiones
-robot-answer-says = Robots y PLC piden por TCP una inspección y reciben resultado y pose, como de partsight serve. Cada trigger se responde con una imagen que la fuente de la ventana da después
+robot-answer-says = Robots y PLC piden por TCP una inspección y reciben resultado y pose, como de partsight serve. Cada trigger se responde con una imagen que la fuente de la ventana da después. SERVO usa el objetivo y los límites de la página Servo
 robot-protocol = Protocolo
 robot-port = Puerto, o dirección IP y puerto
 robot-pose-of-part = Dónde está la pieza

@@ -126,7 +126,7 @@ robot-moved-advice = 喷涂前请工程师查看：“机器人…”中的“�
 ## Answering robots
 
 robot-answer = 应答机器人
-robot-answer-says = 机器人和 PLC 通过 TCP 请求检测，并获得判定和位姿，与 partsight serve 相同。每次触发都由窗口来源在其后给出的一帧回答
+robot-answer-says = 机器人和 PLC 通过 TCP 请求检测，并获得判定和位姿，与 partsight serve 相同。每次触发都由窗口来源在其后给出的一帧回答。SERVO 使用“伺服”页面的目标和限值
 robot-protocol = 协议
 robot-port = 端口，或 IP 地址和端口
 robot-pose-of-part = 零件的位置

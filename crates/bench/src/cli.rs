@@ -61,6 +61,8 @@ Examples:
   partsight-bench paint --coat primer
   partsight-bench serve --json serve.json
   partsight-bench servo --runs 200 --json servo.json
+  partsight-bench servo --runs 500 --first 500 --reference fender.png --reference door.png --json second.json
+  partsight-bench servo --read first.json second.json
   partsight-bench line --runs 50 --json line.json
   partsight-bench soak --frames 1000000 --plot soak.png
 
@@ -126,7 +128,7 @@ enum Experiment {
     Paint(paint::PaintArgs),
     /// The server that robots ask, on this computer: status requests of each protocol beside bare exchanges of as many bytes over TCP, and triggers beside the same inspections called directly
     Serve(FrameChoice),
-    /// Simulated runs of visual servoing: where they end, how long they take, why they stop, and whether limits are kept
+    /// Simulated runs of visual servoing: where they end, how long they take, why they stop, and whether limits are kept; exit code 1 if one was not
     Servo(servo::ServoArgs),
     /// Simulated lines whose parts pass the camera: whether each is found once and in time, and the errors of poses at later counts
     Line(line::LineArgs),

@@ -1,31 +1,128 @@
 //! Simulated runs of visual servoing: where they end, how long they take, why they stop, and whether limits are kept.
 //!
-//! Each run has a part, a start, a calibration error, a delay and a seed of its own. The figures are compared with the truth of
-//! the simulation, which the servo does not know.
+//! Each run has a part, a start, a calibration error, a delay and a seed of its own, by its number alone: several processes can
+//! share the runs. The figures are compared with the truth of the simulation, which the servo does not know.
 
-use std::time::Duration;
+use std::{ops::Range, sync::Arc, time::Duration};
 
 use rand::{RngExt as _, SeedableRng as _};
 use rand_pcg::Pcg64;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use geometry::{
+    error::Advice,
+    mesh::TriangleMesh,
     parallel::{map_each, num_cores},
     rigid::PoseDelta,
     units::{Metres, Radians},
 };
-use inspection::library::Library;
+use inspection::library::{
+    EnrolError, EnrolParams, Library, PartDescription, PartName, enrol_captured,
+    enrol_standard_parts,
+};
 use servo::{
     ServoParams, Step,
     simulated::{
-        ArmDynamics, CellSetup, Disturbance, HandEyeError, RunResult, SimulatedCell,
-        SimulatedTarget, run, run_in_single_moves,
+        ArmDynamics, CellPart, CellSetup, Disturbance, HandEyeError, RunResult, ScannedPart,
+        SimulatedCell, SimulatedTarget, run, run_in_single_moves,
     },
 };
 use simulate::PartKind;
+use stages::{scene::SceneCloud, segment::SegmentedPart};
+
+/// The parts that are servoed to, and the library with all of them.
+pub struct ServoParts {
+    library: Library,
+    parts: Vec<CellPart>,
+}
+
+/// Why a capture cannot be hung in the simulated cell.
+#[derive(Debug, thiserror::Error, Advice)]
+pub enum ServoPartError {
+    /// Nothing in it can be enrolled.
+    #[error(transparent)]
+    #[advice(transparent)]
+    Enrol(#[from] EnrolError),
+    /// It has no rows and columns, so that its surface is not known.
+    #[error("a cloud without rows and columns")]
+    #[advice = "Give a depth image, or an organised cloud"]
+    NotOrganised,
+}
+
+/// Neighbouring readings belong to one surface up to this difference in depth, metres.
+const MAX_STEP_M: f32 = 0.02;
+
+impl ServoParts {
+    /// The eight simulated parts.
+    pub fn standard() -> Result<Self, EnrolError> {
+        Ok(Self {
+            library: enrol_standard_parts(&EnrolParams::default())?,
+            parts: PartKind::ALL.map(CellPart::Simulated).to_vec(),
+        })
+    }
+
+    /// Adds the part of a real capture: it is enrolled under this name, and the simulated camera sees the surface that the capture
+    /// shows.
+    pub fn add_captured(
+        &mut self,
+        scene: &SceneCloud,
+        name: PartName,
+    ) -> Result<(), ServoPartError> {
+        let reference = name.as_str().to_owned();
+        let about = PartDescription {
+            name,
+            title: String::new(),
+            notes: String::new(),
+            from: "capture".to_owned(),
+            at: jiff::Timestamp::UNIX_EPOCH,
+            simulated: false,
+        };
+        let enrolled = enrol_captured(scene, &about, &EnrolParams::default())?;
+        let seen = enrolled.seen.as_ref();
+        let surface = seen.and_then(|seen| surface_of(scene, seen));
+        let part = surface.and_then(|surface| ScannedPart::new(reference, surface));
+        let part = part.ok_or(ServoPartError::NotOrganised)?;
+        self.library.references.push(enrolled.reference);
+        self.parts.push(CellPart::Scanned(Arc::new(part)));
+        Ok(())
+    }
+}
+
+/// The surface through the readings of a part; `None` if the capture has no rows and columns.
+fn surface_of(scene: &SceneCloud, seen: &SegmentedPart) -> Option<TriangleMesh> {
+    let width = scene.cloud.grid?.width;
+    let mut vertex_at = vec![None; scene.cloud.points.len()];
+    for (vertex, index) in (0_u32..).zip(&seen.indices) {
+        vertex_at[*index as usize] = Some(vertex);
+    }
+    let vertices = seen.cloud.points.clone();
+    let mut triangles = Vec::new();
+    for index in seen.indices.iter().map(|index| *index as usize) {
+        if (index + 1).is_multiple_of(width) {
+            continue;
+        }
+        let at = |index: usize| vertex_at.get(index).copied().flatten();
+        let corners = [index, index + width, index + 1, index + width + 1].map(at);
+        for [a, b, c] in [[0, 1, 2], [2, 1, 3]] {
+            let (Some(a), Some(b), Some(c)) = (corners[a], corners[b], corners[c]) else {
+                continue;
+            };
+            let depths = [a, b, c].map(|vertex| vertices[vertex as usize].z);
+            let [least, most] =
+                [f32::min, f32::max].map(|of| depths.into_iter().fold(depths[0], of));
+            if most - least <= MAX_STEP_M {
+                triangles.push([a, b, c]);
+            }
+        }
+    }
+    Some(TriangleMesh {
+        vertices,
+        triangles,
+    })
+}
 
 /// What a set of runs shares.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ServoSuite {
     /// To the standard position or a recorded camera pose, noise once and three times a Kinect's, the calibration wrong by up
@@ -65,19 +162,20 @@ impl ServoSuite {
         }
     }
 
-    /// Number of runs of this suite for this number of runs of the first.
-    pub fn num_runs(self, num_runs: usize) -> usize {
-        match self {
-            Self::Camera => num_runs,
-            Self::Disturbed | Self::SingleMoves => num_runs.div_ceil(2),
-            Self::DisturbedSingleMoves => num_runs.div_ceil(4),
-            Self::PathStart => num_runs.div_ceil(8),
-        }
+    /// Numbers of the runs of this suite that belong to these of the first. What is split stays whole.
+    pub fn numbers(self, first: &Range<u64>) -> Range<u64> {
+        let share = match self {
+            Self::Camera => 1,
+            Self::Disturbed | Self::SingleMoves => 2,
+            Self::DisturbedSingleMoves => 4,
+            Self::PathStart => 8,
+        };
+        first.start.div_ceil(share)..first.end.div_ceil(share)
     }
 }
 
 /// A run and its result.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct ServoCase {
     /// The suite.
     pub suite: ServoSuite,
@@ -98,12 +196,12 @@ pub struct ServoCase {
 }
 
 /// The result of a run.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct ServoRun {
     /// True if the servo says that the target is reached.
     pub is_done: bool,
     /// Why it stopped; none if the target is reached.
-    pub stopped: Option<&'static str>,
+    pub stopped: Option<String>,
     /// The reason in words.
     pub why: Option<String>,
     /// True error at the start, millimetres and degrees.
@@ -133,6 +231,13 @@ pub struct ServoRun {
     pub num_blind: usize,
     /// Number of commands that the arm could not follow.
     pub num_unreachable: usize,
+}
+
+impl ServoCase {
+    /// True if the servo says that the target is reached.
+    pub fn is_done(&self) -> bool {
+        self.run.as_ref().is_some_and(|run| run.is_done)
+    }
 }
 
 /// A true error beyond that of the start by which a run has diverged, millimetres.
@@ -189,7 +294,7 @@ impl ServoRun {
         });
         Some(Self {
             is_done: arrival.is_some(),
-            stopped: reason.map(servo::StopReason::kind),
+            stopped: reason.map(|reason| reason.kind().to_owned()),
             why: reason.map(ToString::to_string),
             start: figures(&start),
             end: figures(&end),
@@ -220,32 +325,35 @@ pub fn servo_params() -> ServoParams {
     params
 }
 
-/// Runs a suite, and calls `after_each` after every run. Runs share the processor's cores.
+/// Makes the runs of a suite with these numbers, and calls `after_each` after every run. Runs share the processor's cores.
 pub fn servo_cases(
     suite: ServoSuite,
-    num_runs: usize,
+    mut numbers: Range<u64>,
     first_seed: u64,
-    library: &Library,
+    parts: &ServoParts,
     after_each: impl Fn(),
 ) -> Vec<ServoCase> {
     let num_workers = num_cores();
-    let mut cases = Vec::with_capacity(num_runs);
-    while cases.len() < num_runs {
-        let first = cases.len();
-        let num = (num_runs - first).min(4 * num_workers);
+    let mut cases = Vec::new();
+    while !numbers.is_empty() {
+        let first = numbers.start;
+        let num = (numbers.end - first).min(4 * num_workers as u64) as usize;
         cases.extend(map_each(num, num_workers, |k| {
-            case(suite, (first + k) as u64, first_seed, library)
+            case(suite, first + k as u64, first_seed, parts)
         }));
-        (0..num).for_each(|_| after_each());
+        for _ in 0..num {
+            after_each();
+        }
+        numbers.start += num as u64;
     }
     cases
 }
 
-fn case(suite: ServoSuite, number: u64, first_seed: u64, library: &Library) -> ServoCase {
+fn case(suite: ServoSuite, number: u64, first_seed: u64, parts: &ServoParts) -> ServoCase {
     let seed = first_seed + 100_000 * suite.streamed() as u64 + number;
-    let setup = setup(suite.streamed(), number, seed);
+    let setup = setup(suite.streamed(), number, seed, &parts.parts);
     let params = servo_params();
-    let arranged = SimulatedCell::arrange(setup, library).ok();
+    let arranged = SimulatedCell::arrange(setup.clone(), &parts.library).ok();
     let done = arranged.and_then(|cell| {
         let result = if suite.is_single() {
             run_in_single_moves(&cell, &params, LONGEST_MOVE)
@@ -257,7 +365,7 @@ fn case(suite: ServoSuite, number: u64, first_seed: u64, library: &Library) -> S
     });
     ServoCase {
         suite,
-        part: setup.kind.name().to_owned(),
+        part: setup.part.name(),
         target: setup.target,
         noise: setup.noise,
         delay_ms: setup.delay.as_millis() as u64,
@@ -267,10 +375,10 @@ fn case(suite: ServoSuite, number: u64, first_seed: u64, library: &Library) -> S
     }
 }
 
-fn setup(suite: ServoSuite, number: u64, seed: u64) -> CellSetup {
+fn setup(suite: ServoSuite, number: u64, seed: u64, parts: &[CellPart]) -> CellSetup {
     let mut random = Pcg64::seed_from_u64(seed);
-    let kinds = PartKind::ALL;
-    let turn = number / kinds.len() as u64;
+    let num_parts = parts.len() as u64;
+    let turn = number / num_parts;
     let disturbances = Disturbance::ALL;
     let (target, disturbance) = match suite {
         ServoSuite::PathStart => (SimulatedTarget::PathStart, Disturbance::None),
@@ -292,7 +400,7 @@ fn setup(suite: ServoSuite, number: u64, seed: u64) -> CellSetup {
         },
     };
     CellSetup {
-        kind: kinds[number as usize % kinds.len()],
+        part: parts[(number % num_parts) as usize].clone(),
         target,
         noise: if turn.is_multiple_of(2) { 1.0 } else { 3.0 },
         start: (Metres(0.25), Radians::from_degrees(25.0)),
@@ -312,12 +420,23 @@ fn setup(suite: ServoSuite, number: u64, seed: u64) -> CellSetup {
 mod tests {
     use super::*;
     use inspection::fixtures::standard_library;
+    use simulate::{CellSetup as FrameSetup, Side, frame};
+    use stages::scene::scene_from_frame;
+
+    const SEED: u64 = 3_000_000;
+
+    fn standard() -> ServoParts {
+        ServoParts {
+            library: standard_library(),
+            parts: PartKind::ALL.map(CellPart::Simulated).to_vec(),
+        }
+    }
 
     #[test]
     fn runs_end_near_their_targets_within_the_limits_and_are_the_same_again() {
-        let library = standard_library();
-        let some = |num| servo_cases(ServoSuite::Camera, num, 3_000_000, &library, || ());
-        let cases = some(8);
+        let parts = standard();
+        let some = |numbers| servo_cases(ServoSuite::Camera, numbers, SEED, &parts, || ());
+        let cases = some(0..8);
         let runs: Vec<&ServoRun> = cases.iter().filter_map(|case| case.run.as_ref()).collect();
         assert_eq!(runs.len(), 8);
         for run in &runs {
@@ -326,14 +445,26 @@ mod tests {
             assert!(!run.is_beyond() && !run.has_diverged() && !run.touches());
             assert_eq!((run.num_blind, run.num_unreachable), (0, 0));
         }
+        // Also by a process that makes no other.
         let of = |cases: &[ServoCase]| format!("{cases:?}");
-        assert_eq!(of(&some(1)), of(&cases[..1]));
+        assert_eq!(of(&some(5..6)), of(&cases[5..6]));
+    }
+
+    #[test]
+    fn what_several_processes_share_is_what_one_would_run() {
+        for suite in ServoSuite::ALL {
+            let whole = suite.numbers(&(0..100));
+            let split = [0..33, 33..34, 34..100].map(|part| suite.numbers(&part));
+            assert_eq!(
+                split.into_iter().flatten().collect::<Vec<_>>(),
+                whole.collect::<Vec<_>>()
+            );
+        }
     }
 
     #[test]
     fn in_single_moves_they_end_there_too() {
-        let library = standard_library();
-        let cases = servo_cases(ServoSuite::SingleMoves, 4, 3_000_000, &library, || ());
+        let cases = servo_cases(ServoSuite::SingleMoves, 0..4, SEED, &standard(), || ());
         for case in &cases {
             let run = case.run.as_ref().expect("a start");
             assert!(run.is_done, "{case:?}");
@@ -346,9 +477,9 @@ mod tests {
 
     #[test]
     fn a_part_that_is_gone_or_another_stops_the_robot() {
-        let library = standard_library();
+        let parts = standard();
         let both = [ServoSuite::Disturbed, ServoSuite::DisturbedSingleMoves];
-        let cases = both.map(|suite| servo_cases(suite, 7, 3_000_000, &library, || ()));
+        let cases = both.map(|suite| servo_cases(suite, 0..7, SEED, &parts, || ()));
         let params = servo_params();
         for case in cases.iter().flatten() {
             let run = case.run.as_ref().expect("a start");
@@ -359,5 +490,21 @@ mod tests {
                 assert!(run.stopped.is_some(), "{case:?}");
             }
         }
+    }
+
+    #[test]
+    fn a_captured_part_hangs_in_the_cell_as_it_was_captured() {
+        let mut parts = ServoParts {
+            library: Library::default(),
+            parts: Vec::new(),
+        };
+        let captured = frame(&FrameSetup::with_part(PartKind::Grille, Side::Left, 0, 4));
+        let name = PartName::new("seen").expect("a name");
+        let scene = scene_from_frame(&captured.frame);
+        parts.add_captured(&scene, name).expect("a part");
+        let cases = servo_cases(ServoSuite::Camera, 0..1, SEED, &parts, || ());
+        let run = cases[0].run.as_ref().expect("a start");
+        assert!(run.is_done && cases[0].part == "seen", "{cases:?}");
+        assert!(run.end[0] < 2.5 && run.end[1] < 0.25, "{run:?}");
     }
 }

@@ -262,3 +262,31 @@ fn protocols_are_timed_beside_bare_exchanges_and_direct_calls() {
         assert!(ran.out.contains(output), "{output}: {}", ran.out);
     }
 }
+
+#[test]
+fn runs_of_servoing_that_processes_share_are_shown_together_and_none_counts_twice() {
+    let place = Workplace::new();
+    let made = place.accepted(&["servo", "--runs", "1", "--first", "2", "--json", "a.json"]);
+    let acceptance = |out: &str| {
+        let (_, figures) = out
+            .split_once("undisturbed, to camera poses:")
+            .expect("shown");
+        figures.to_owned()
+    };
+    let figures = acceptance(&made.out);
+    assert!(
+        figures.contains("1 of 1 at the target, 100.0 %"),
+        "{figures}"
+    );
+    assert!(
+        figures.contains("of 3 runs, wanted 0: beyond a limit"),
+        "{figures}"
+    );
+    let read = place.accepted(&["servo", "--read", "a.json"]);
+    assert_eq!(acceptance(&read.out), figures);
+    let twice = place.coded(2, &["servo", "--read", "a.json", "a.json"]).err;
+    assert!(
+        twice.contains("also in another file") && twice.contains("to do"),
+        "{twice}"
+    );
+}

@@ -1,6 +1,6 @@
 //! Errors and warnings of sources, with advice.
 
-use std::{io, path::PathBuf};
+use std::{io, net::SocketAddr, path::PathBuf};
 
 use thiserror::Error;
 
@@ -89,6 +89,15 @@ pub enum CaptureError {
         /// The underlying error.
         source: io::Error,
     },
+    /// No simulated robot answers, or what answers is none.
+    #[error("no simulated robot gives frames at {at}: {}", words_of(source))]
+    #[advice = "Start it with partsight simulate --robot, and give the address that it shows"]
+    NoRobot {
+        /// Where it should be.
+        at: SocketAddr,
+        /// The underlying error.
+        source: io::Error,
+    },
     /// The system refuses a thread for the camera.
     #[error("the camera's thread cannot be started: {source}")]
     #[advice = "Close other programs and start again"]
@@ -133,6 +142,7 @@ impl CaptureError {
                 Recovery::AskAgain
             }
             Self::Camera(error) => error.recovery(),
+            Self::NoRobot { .. } => Recovery::Reopen,
             Self::FolderGone { .. }
             | Self::File(_)
             | Self::MeshIsNoCapture { .. }

@@ -1,5 +1,5 @@
-//! Sources of frames: the simulated cell, recordings, a watched folder, a Kinect, and cameras through GenICam, OpenNI and
-//! RealSense.
+//! Sources of frames: the simulated cell, a simulated robot, recordings, a watched folder, a Kinect, and cameras through
+//! GenICam, OpenNI and RealSense.
 //!
 //! ```text
 //! SourceSpec ─► open ─► DepthSource ─► Feed ─► Captured, to be inspected, recorded or shown
@@ -27,6 +27,7 @@ mod read;
 mod read_timeout;
 mod realsense;
 mod recording;
+mod robot_camera;
 mod simulated;
 mod source;
 mod spec;
@@ -41,6 +42,7 @@ pub use self::rate::FrameRate;
 pub use self::read::may_be_capture;
 pub use self::read::read_image;
 pub use self::recording::{Recorder, Replay};
+pub use self::robot_camera::{RobotConnection, RobotReply, RobotRequest};
 pub use self::simulated::{SimulatedCell, simulated_frame_number};
 pub use self::source::{Captured, DepthSource, Image, NextCapture, SkippedCapture};
 pub use self::spec::{

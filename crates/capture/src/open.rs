@@ -6,6 +6,7 @@ use super::{
     kinect::{self, Kinect},
     openni, realsense,
     recording::Replay,
+    robot_camera::RobotCamera,
     simulated::SimulatedCell,
     source::DepthSource,
     spec::{SimulatedSpec, SourceListing, SourceSpec},
@@ -16,6 +17,7 @@ use super::{
 pub fn open(spec: &SourceSpec) -> Result<Box<dyn DepthSource>, CaptureError> {
     Ok(match spec {
         SourceSpec::Simulated(spec) => Box::new(SimulatedCell::new(spec.clone())),
+        SourceSpec::SimulatedRobot(at) => Box::new(RobotCamera::open(*at)?),
         SourceSpec::Recording(spec) => Box::new(Replay::open(spec)?),
         SourceSpec::Watched(spec) => Box::new(WatchedFolder::new(spec)),
         SourceSpec::Kinect(spec) => Box::new(Kinect::open(spec)?),

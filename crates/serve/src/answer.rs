@@ -183,7 +183,7 @@ impl Problem {
         Self::new(
             "no_servoing",
             "this server answers no SERVO",
-            "Ask a partsight serve that runs without the window",
+            "Ask partsight serve, or a window that answers robots",
         )
     }
 

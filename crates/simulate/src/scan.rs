@@ -64,12 +64,19 @@ const STREAM: u64 = 0x5ca9_5ca9_5ca9_5ca9;
 impl SimulatedScan {
     /// Builds the part and the cell around it.
     pub fn new(setup: ScanSetup) -> Self {
+        let part = setup.subject.mesh();
+        Self::of_mesh(setup, part)
+    }
+
+    /// Like [`Self::new`], with this surface in place of the subject's: around its middle, x right, y down, and z away from who
+    /// looks at it.
+    pub fn of_mesh(setup: ScanSetup, part: TriangleMesh) -> Self {
         // The model faces a camera with x right, y down and z away; the part faces back along the base's x axis.
         let axes = Matrix3::new(0.0, 0.0, 1.0, -1.0, 0.0, 0.0, 0.0, -1.0, 0.0);
         let turn = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(axes));
         let [x, y, z] = MIDDLE_M;
         Self {
-            part: setup.subject.mesh(),
+            part,
             cell: cell(),
             setup,
             base_from_model: Isometry3::from_parts(Translation3::new(x, y, z), turn),

@@ -228,7 +228,7 @@ impl ServeSession<'_> {
         let (scenes, console) = (&mut self.scenes, &*self.console);
         servoing.answer(request, client, asked, parts, |prepared, asked, num| {
             watch.looks(prepared, asked, num, |captured| {
-                scene_of(captured, scenes, console)
+                Arc::new(scene_of(captured, scenes, console))
             })
         })
     }

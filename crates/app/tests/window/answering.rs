@@ -12,12 +12,15 @@ use std::{
 
 use app::{
     Window, WindowOptions,
-    workspaces::history::{HistoryAction, HistoryWorkspace},
+    workspaces::{
+        history::{HistoryAction, HistoryWorkspace},
+        servo::{ServoAction, ServoWorkspace},
+    },
 };
 use capture::{CaptureError, Captured, DepthSource, Image, NextCapture};
 use egui::{Key, Role};
 use egui_kittest::{Harness, kittest::Queryable as _};
-use geometry::{depth_frame::DepthFrame, rigid::RigidTransform};
+use geometry::{depth_frame::DepthFrame, oriented_box::OrientedBox, rigid::RigidTransform};
 use inspection::library::{LibraryFolder, PartName, Truth};
 use jiff::{SignedDuration, Timestamp};
 use records::history::{Filter, HistoryBuffer, StoredVerdict};
@@ -304,6 +307,64 @@ fn without_live_a_trigger_is_answered_with_what_to_do_and_with_it_again_with_a_p
     let reply = robot.ask("TRIGGER");
     assert_eq!([&*reply[1], &*reply[2]], ["accepted", "2"], "{reply:?}");
     assert!(!says(&harness, "without frames"));
+}
+
+#[test]
+fn a_robot_that_servoes_is_moved_within_the_limits_of_the_page_servo() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut harness = open_with(USUAL, options(folder.path()));
+    let at = turn_on(&mut harness);
+    wait_for(&mut harness, |window| shown_pose(window).is_some());
+    let library = harness.state().state().session.library.as_ref();
+    let index = library.and_then(|library| library.index_of("fender"));
+    let number = index.expect("enrolled") + 1;
+    let mut robot = Robot::connect(at);
+    let mut servo = |start: &str| robot.ask(&format!("SERVO {start}{number} 900 0 1100 10 20 30"));
+    let reply = servo("START ");
+    let [verdict, part, flags] = [1, 6, 8].map(|field| reply[field].as_str());
+    assert_eq!([verdict, part, flags], ["move", "fender", "5"], "{reply:?}");
+    let sent = [12, 13, 14].map(|field| reply[field].parse::<f64>().expect("a number"));
+    let [x, y, z] = [sent[0] - 900.0, sent[1], sent[2] - 1100.0];
+    let way = x.hypot(y).hypot(z);
+    assert!(way > 1.0 && way < 100.01, "{reply:?}");
+
+    // Another work volume counts at once, and ends the run.
+    let mut settings = harness.state().state().session.servo.clone();
+    settings.volume = Some(OrientedBox {
+        centre_m: [9.0, 0.0, 0.0],
+        size_m: [1.0; 3],
+        angles_rad: [0.0; 3],
+    });
+    let context = harness.ctx.clone();
+    let set_up = harness
+        .state_mut()
+        .with(&context, |page: &mut ServoWorkspace, cx| {
+            page.state.apply(ServoAction::SetUp(settings), cx);
+        });
+    set_up.expect("the window has this workspace");
+    harness.run_steps(4);
+    let reply = servo("");
+    let reason = [&*reply[1], &*reply[18]];
+    assert_eq!(reason, ["stay", "outside_volume"], "{reply:?}");
+    let runs = harness
+        .state()
+        .history()
+        .servo_runs(&Filter::default(), 0, 10);
+    let rows = runs.expect("read").rows;
+    let [run] = &rows[..] else {
+        panic!("the first run alone has ended");
+    };
+    let stopped = run.stopped.as_ref().map(servo::StopReason::kind);
+    assert_eq!((&*run.part, stopped), ("fender", Some("robot_stopped")));
+
+    toggle(&mut harness);
+    harness.run_steps(4);
+    let reply = servo("START ");
+    assert_eq!(
+        [&*reply[1], &*reply[18]],
+        ["error", "camera_failed"],
+        "{reply:?}"
+    );
 }
 
 #[test]

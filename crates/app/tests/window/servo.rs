@@ -16,8 +16,8 @@ use robot::calibration::CameraPlace;
 use servo::{
     ServoParams, ServoState, Standing, Step, StopReason,
     simulated::{
-        ArmDynamics, CellSetup, Disturbance, HandEyeError, SimulatedCell, SimulatedTarget,
-        StreamProtocol, run,
+        ArmDynamics, CellPart, CellSetup, Disturbance, HandEyeError, SimulatedCell,
+        SimulatedTarget, StreamProtocol, run,
     },
 };
 use shell::{
@@ -265,7 +265,7 @@ fn the_page_speaks_every_language() {
 /// The fender's cell of a seed.
 fn setup() -> CellSetup {
     CellSetup {
-        kind: PartKind::Fender,
+        part: CellPart::Simulated(PartKind::Fender),
         target: SimulatedTarget::Standard,
         noise: 1.0,
         start: (Metres(0.25), Radians::from_degrees(25.0)),

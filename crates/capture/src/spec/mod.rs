@@ -5,6 +5,7 @@
 //!
 //! ```text
 //! simulated   simulated:fender   simulated,side=right,noise=2:fender   simulated,every=6:line
+//! simulated-robot:127.0.0.1:30200
 //! recording:captures/monday      recording,pace=step:captures/monday
 //! watch:/mnt/scanner             watch,from=all:/mnt/scanner
 //! kinect      kinect:A00366813142045A
@@ -20,6 +21,7 @@ mod simulated;
 
 use std::{
     fmt,
+    net::SocketAddr,
     path::{Path, PathBuf},
     str::FromStr,
 };
@@ -32,6 +34,7 @@ pub use self::realsense::RealsenseSpec;
 pub use self::simulated::{CellScene, NUM_ON_RACK, SimulatedPose, SimulatedSpec};
 use super::camera_error::CameraError;
 use super::recording::is_sequence;
+use super::robot_camera;
 use geometry::error::Advice;
 
 /// Specification of a source that can be opened.
@@ -40,6 +43,8 @@ use geometry::error::Advice;
 pub enum SourceSpec {
     /// The simulated cell.
     Simulated(SimulatedSpec),
+    /// The camera of a simulated robot, which is another program.
+    SimulatedRobot(SocketAddr),
     /// A folder of frames to replay.
     Recording(RecordingSpec),
     /// A folder to which another program saves captures.
@@ -167,8 +172,8 @@ fn recorded_file<'a>(device: Option<&'a str>, endings: &[&str]) -> Option<&'a Pa
 pub enum SpecError {
     /// The kind of source is unknown.
     #[error(
-        "{text:?} is not a source; expected one that begins with simulated, recording, watch, kinect, genicam, openni \
-         or realsense"
+        "{text:?} is not a source; expected one that begins with simulated, simulated-robot, recording, watch, kinect, \
+         genicam, openni or realsense"
     )]
     #[advice(if Path::new(text).is_dir() {
         format!("Say what to do with the folder: recording:{text} to replay it, watch:{text} to wait for new files")
@@ -213,6 +218,7 @@ pub enum SpecError {
 const SEE_EXAMPLES: &str = "See partsight capture --help for examples";
 
 const SIMULATED: &str = "simulated";
+const SIMULATED_ROBOT: &str = "simulated-robot";
 const RECORDING: &str = "recording";
 const WATCH: &str = "watch";
 const KINECT: &str = "kinect";
@@ -221,9 +227,9 @@ const OPENNI: &str = "openni";
 const REALSENSE: &str = "realsense";
 
 impl SourceSpec {
-    /// True for the simulated cell itself; whether a recording is simulated is stored in it.
+    /// True for the simulated cell or robot itself; whether a recording is simulated is stored in it.
     pub fn is_simulated(&self) -> bool {
-        matches!(self, Self::Simulated(_))
+        matches!(self, Self::Simulated(_) | Self::SimulatedRobot(_))
     }
 
     /// True for frames that were captured earlier: a recording, an RGB-D sequence, or a file that OpenNI or librealsense
@@ -233,7 +239,11 @@ impl SourceSpec {
             Self::Recording(_) => true,
             Self::OpenNi(spec) => spec.file().is_some(),
             Self::Realsense(spec) => spec.file().is_some(),
-            Self::Simulated(_) | Self::Watched(_) | Self::Kinect(_) | Self::Genicam(_) => false,
+            Self::Simulated(_)
+            | Self::SimulatedRobot(_)
+            | Self::Watched(_)
+            | Self::Kinect(_)
+            | Self::Genicam(_) => false,
         }
     }
 
@@ -241,7 +251,9 @@ impl SourceSpec {
     /// are dropped rather than queued.
     pub fn is_live(&self) -> bool {
         match self {
-            Self::Simulated(_) | Self::Kinect(_) | Self::Genicam(_) => true,
+            Self::Simulated(_) | Self::SimulatedRobot(_) | Self::Kinect(_) | Self::Genicam(_) => {
+                true
+            }
             Self::Recording(RecordingSpec { pace, .. }) => is_running(*pace),
             Self::OpenNi(spec) => spec.file().is_none() || is_running(spec.pace),
             Self::Realsense(spec) => spec.file().is_none() || is_running(spec.pace),
@@ -253,6 +265,7 @@ impl SourceSpec {
     pub fn is_followed(&self) -> bool {
         match self {
             Self::Simulated(_)
+            | Self::SimulatedRobot(_)
             | Self::Kinect(_)
             | Self::Genicam(_)
             | Self::OpenNi(_)
@@ -280,6 +293,7 @@ impl SourceSpec {
     pub fn title(&self) -> String {
         match self {
             Self::Simulated(spec) => spec.title(),
+            Self::SimulatedRobot(at) => robot_camera::title(*at),
             Self::Recording(spec) => format!("Recording {}", spec.folder.display()),
             Self::Watched(spec) => format!("Folder {}", spec.folder.display()),
             Self::Genicam(spec) => spec.title(),
@@ -320,6 +334,17 @@ impl FromStr for SourceSpec {
             SIMULATED => {
                 let options = Options::split(SIMULATED, options, SimulatedSpec::OPTIONS)?;
                 SimulatedSpec::read(what, &options).map(Self::Simulated)
+            }
+            SIMULATED_ROBOT => {
+                let at = what.filter(|_| options.is_empty());
+                let at = at.and_then(|at| at.parse().ok());
+                at.map(Self::SimulatedRobot)
+                    .ok_or_else(|| SpecError::BadValue {
+                        what: "simulated robot",
+                        found: text.to_owned(),
+                        expected: "the IP address and port of its camera, as in simulated-robot:127.0.0.1:30200"
+                            .to_owned(),
+                    })
             }
             RECORDING => {
                 let options = Options::split(RECORDING, options, "pace camera")?;
@@ -403,6 +428,7 @@ impl fmt::Display for SourceSpec {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Simulated(spec) => spec.write(f),
+            Self::SimulatedRobot(at) => write!(f, "{SIMULATED_ROBOT}:{at}"),
             Self::Recording(RecordingSpec {
                 folder,
                 pace,
@@ -499,6 +525,8 @@ mod tests {
             "simulated,speed=250:conveyor",
             "simulated,side=right,model=3,pose=hard,noise=0.5,clutter=in-front,seed=9,fps=12:front_door",
             "simulated,pose=0 0 15deg 0 0 1.2:grille",
+            "simulated-robot:127.0.0.1:30200",
+            "simulated-robot:[::1]:30200",
             "recording:captures/monday",
             "recording,pace=step:C:\\captures, old",
             "recording,pace=2.5:a",
@@ -582,6 +610,8 @@ mod tests {
             ("simulated,noise=NaN", "from 0 to 5"),
             ("simulated,fps=0", "frames a second"),
             ("simulated,pose=1 2 3", "six"),
+            ("simulated-robot:30200", "127.0.0.1:30200"),
+            ("simulated-robot,fps=3:127.0.0.1:1", "127.0.0.1:30200"),
             ("openni,pace=step", "ends in .oni"),
             ("openni,pace=step:1d27/0601@1/5", "ends in .oni"),
             ("openni,pace=0:a.oni", "frames a second"),

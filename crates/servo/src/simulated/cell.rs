@@ -6,7 +6,7 @@ use nalgebra::{Point3, Translation3, UnitQuaternion, Vector3};
 use rand::{Rng, RngExt as _, SeedableRng as _};
 use rand_pcg::Pcg64;
 
-use super::{ArmDynamics, SimulatedArm, SimulatedController, StreamProtocol};
+use super::{ArmDynamics, CellPart, SimulatedArm, SimulatedController, StreamProtocol};
 use crate::{Fence, Look, Target, Task, TaskError, Tool, stream::Stream};
 use geometry::{
     depth_frame::{DepthFrame, Intrinsics},
@@ -15,7 +15,7 @@ use geometry::{
     units::{Metres, Radians},
 };
 use inspection::{
-    library::{Library, enrolled_name, enrolment_pose},
+    library::Library,
     pipeline::{Recipe, Unwatched, run},
 };
 use robot::{
@@ -23,12 +23,12 @@ use robot::{
     calibration::CameraPlace,
     spray::default_path,
 };
-use serde::Serialize;
-use simulate::{PartKind, ScanSetup, SensorNoise, Side, SimulatedObject, SimulatedScan};
+use serde::{Deserialize, Serialize};
+use simulate::{SensorNoise, SimulatedScan};
 use stages::{reference::Reference, scene::scene_from_frame, stand_off::StandOffParams};
 
 /// Where the simulated robot should bring the camera or the nozzle.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum SimulatedTarget {
     /// The part's standard position.
@@ -51,7 +51,7 @@ impl SimulatedTarget {
 }
 
 /// What goes wrong during a run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Disturbance {
     /// Nothing.
@@ -109,10 +109,10 @@ pub struct HandEyeError {
 }
 
 /// Everything that determines a simulated run.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct CellSetup {
-    /// The part; of two sides the left one.
-    pub kind: PartKind,
+    /// The part.
+    pub part: CellPart,
     /// Where it should be.
     pub target: SimulatedTarget,
     /// Scales the camera's noise; 1 is a Kinect's.
@@ -175,6 +175,8 @@ pub struct SimulatedCell<'a> {
     pub(super) library: &'a Library,
     recipe: Recipe,
     scan: SimulatedScan,
+    /// The scan's model in part space.
+    part_from_model: RigidTransform,
     /// What hangs there after an exchange.
     exchanged: Option<SimulatedScan>,
     /// How the part is moved by a push.
@@ -217,6 +219,8 @@ impl CellCamera {
     }
 }
 
+/// The arm of every simulated cell.
+pub const ARM: &str = "irb4600";
 /// The base of the arm in the base frame of the cell.
 const ARM_BACK_M: f64 = -1.35;
 /// Number of frames that a target is recorded from.
@@ -231,21 +235,22 @@ const MIN_EDGE_DISTANCE_PIXELS: f64 = 4.0;
 impl<'a> SimulatedCell<'a> {
     /// Arranges the cell around the part of an enrolled library.
     pub fn arrange(setup: CellSetup, library: &'a Library) -> Result<Self, SimulatedCellError> {
-        let name = enrolled_name(setup.kind, Side::Left);
+        let name = setup.part.name();
         let reference = library.references.iter().find(|one| one.name == name);
         let with_middle = reference.and_then(|one| Some((one, one.middle()?)));
         let Some((reference, middle)) = with_middle else {
             return Err(SimulatedCellError::NotEnrolled { part: name });
         };
         let mut random = Pcg64::seed_from_u64(setup.seed ^ RANDOM_STREAM);
-        let scan = scan_of(setup.kind, Side::Left, setup.seed);
-        let robot_from_part = scan.base_from_model * enrolment_pose().inverse();
+        let scan = setup.part.scan(setup.seed);
+        let part_from_model = setup.part.part_from_model();
+        let robot_from_part = scan.base_from_model * part_from_model.inverse();
         let flange_from_camera = flange_from_camera();
         let hand_eye = drawn(&mut random, setup.hand_eye.shift.0, setup.hand_eye.turn.0);
         let calibrated = flange_from_camera * hand_eye;
         let placed = placed_arm()?;
         let mut cell = Self {
-            exchanged: exchanged(&setup, &mut random),
+            exchanged: (setup.part).exchanged(setup.disturbance, setup.seed, &mut random),
             push: RigidTransform::from_parts(
                 Translation3::from(direction(&mut random) * 0.05),
                 UnitQuaternion::identity(),
@@ -270,6 +275,7 @@ impl<'a> SimulatedCell<'a> {
             robot_from_part,
             placed,
             scan,
+            part_from_model,
             library,
             setup,
         };
@@ -298,7 +304,7 @@ impl<'a> SimulatedCell<'a> {
                 let robot_from_camera = self.robot_from_part * self.part_from_goal;
                 let looks = (0..NUM_RECORDED).filter_map(|k| {
                     let seed = self.setup.noise_seed(u64::from(u32::MAX) + k);
-                    let frame = self.frame(&robot_from_camera, Duration::ZERO, seed)?;
+                    let frame = self.frame_from(&robot_from_camera, Duration::ZERO, seed)?;
                     Some(self.inspected(&frame, Duration::ZERO))
                 });
                 let looks: Vec<Look> = looks.collect();
@@ -365,7 +371,7 @@ impl<'a> SimulatedCell<'a> {
 
     fn is_in_picture(&self, camera_from_part: &RigidTransform) -> bool {
         let camera = Intrinsics::KINECT;
-        let camera_from_model = camera_from_part * enrolment_pose();
+        let camera_from_model = camera_from_part * self.part_from_model;
         self.scan.part().vertices.iter().all(|p| {
             let pixel = camera.pixel_of(&(camera_from_model * p.cast::<f64>()));
             pixel.is_some_and(|(u, v)| {
@@ -402,7 +408,7 @@ impl<'a> SimulatedCell<'a> {
     }
 
     /// A frame from the camera's true pose; `None` of one that is lost.
-    pub(super) fn frame(
+    fn frame_from(
         &self,
         robot_from_camera: &RigidTransform,
         at: Duration,
@@ -420,7 +426,7 @@ impl<'a> SimulatedCell<'a> {
         let is_exchanged = self.is_disturbed(Disturbance::Mirrored, at)
             || self.is_disturbed(Disturbance::Exchanged, at);
         let scan = (self.exchanged.as_ref().filter(|_| is_exchanged)).unwrap_or(&self.scan);
-        let mut base_from_model = self.robot_from_part_at(at) * enrolment_pose();
+        let mut base_from_model = self.robot_from_part_at(at) * self.part_from_model;
         if self.is_disturbed(Disturbance::Removed, at) {
             // Far above the ceiling.
             base_from_model = Translation3::new(0.0, 0.0, 50.0) * base_from_model;
@@ -463,7 +469,7 @@ impl<'a> SimulatedCell<'a> {
     /// Its camera.
     pub fn into_camera(self) -> CellCamera {
         CellCamera {
-            base_from_model: self.robot_from_part * enrolment_pose(),
+            base_from_model: self.robot_from_part * self.part_from_model,
             setup: self.setup,
             scan: self.scan,
             flange_from_camera: self.flange_from_camera,
@@ -485,10 +491,15 @@ impl<'a> SimulatedCell<'a> {
         protocol.stream(&self.placed)
     }
 
-    /// What the inspection of the frame with this number says, taken with the flange here; `None` if it is lost.
-    pub fn look(&self, flange: &RigidTransform, at: Duration, number: u64) -> Option<Look> {
+    /// The frame with this number, taken with the flange here; `None` if it is lost.
+    pub fn frame(&self, flange: &RigidTransform, at: Duration, number: u64) -> Option<DepthFrame> {
         let robot_from_camera = flange * self.flange_from_camera;
-        let frame = self.frame(&robot_from_camera, at, self.setup.noise_seed(number))?;
+        self.frame_from(&robot_from_camera, at, self.setup.noise_seed(number))
+    }
+
+    /// What the inspection of that frame says.
+    pub fn look(&self, flange: &RigidTransform, at: Duration, number: u64) -> Option<Look> {
+        let frame = self.frame(flange, at, number)?;
         Some(self.inspected(&frame, self.dated(at)))
     }
 
@@ -508,7 +519,7 @@ impl<'a> SimulatedCell<'a> {
     pub(super) fn surface(&self) -> Vec<Point3<f64>> {
         let vertices = self.scan.part().vertices.iter();
         vertices
-            .map(|p| enrolment_pose() * p.cast::<f64>())
+            .map(|p| self.part_from_model * p.cast::<f64>())
             .collect()
     }
 }
@@ -525,7 +536,7 @@ fn placed_arm() -> Result<PlacedArm, ArmError> {
     // The gun is below the camera and so long that the camera still sees the part, beyond its least range.
     let camera_from_nozzle = from_euler_zyx([0.0, 0.0, 0.0, 0.0, 0.12, 0.42]);
     Ok(PlacedArm {
-        arm: Arm::named("irb4600")?,
+        arm: Arm::named(ARM)?,
         robot_from_base: RigidTransform::translation(ARM_BACK_M, 0.0, 0.0),
         flange_from_nozzle: flange_from_camera() * camera_from_nozzle,
         gun_radius: GUN_RADIUS_M,
@@ -551,36 +562,6 @@ fn fence(placed: &PlacedArm, calibrated: &RigidTransform, reference: &Reference)
     fence.arm = Some(placed.clone());
     fence.part.clone_from(&reference.cloud.points);
     fence
-}
-
-fn scan_of(kind: PartKind, side: Side, seed: u64) -> SimulatedScan {
-    SimulatedScan::new(ScanSetup {
-        subject: SimulatedObject::Part {
-            kind,
-            side,
-            model_seed: 0,
-        },
-        num_shots: 1,
-        place_error: Metres(0.0),
-        turn_error: Radians(0.0),
-        noise: 1.0,
-        seed,
-    })
-}
-
-fn exchanged(setup: &CellSetup, random: &mut impl Rng) -> Option<SimulatedScan> {
-    let others = PartKind::ALL.into_iter().filter(|kind| *kind != setup.kind);
-    let others: Vec<PartKind> = others.collect();
-    let other = others[random.random_range(0..others.len())];
-    match setup.disturbance {
-        Disturbance::Mirrored if setup.kind.is_sided() => {
-            Some(scan_of(setup.kind, Side::Right, setup.seed))
-        }
-        Disturbance::Mirrored | Disturbance::Exchanged => {
-            Some(scan_of(other, Side::Left, setup.seed))
-        }
-        _ => None,
-    }
 }
 
 /// A transform with a shift and a turn up to these, in any direction.

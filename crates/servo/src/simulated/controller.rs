@@ -1,5 +1,7 @@
 //! The controller's side of the protocols, at a simulated arm.
 
+use std::time::Duration;
+
 use prost::Message as _;
 use serde::{Deserialize, Serialize};
 
@@ -73,12 +75,12 @@ pub struct SimulatedController {
     rest: Vec<u8>,
     /// True once the computer has said that the target is reached.
     has_arrived: bool,
-    /// The last pose that EGM sent, and how often in a row.
-    same: Option<(RigidTransform, u32)>,
+    /// The last pose that EGM sent, and since when.
+    same: Option<(RigidTransform, Duration)>,
 }
 
-/// In EGM the robot has arrived when it was sent the same pose so often: longer than the servo waits for frames on the way.
-const NUM_SAME: u32 = 200;
+/// In EGM the robot has arrived when it was sent the same pose for so long: longer than the servo waits for frames on the way.
+const SAME_TIME: Duration = Duration::from_millis(2400);
 /// The first number of a report.
 const FIRST_NUMBER: u32 = 1000;
 /// Numbers of the recipes of RTDE.
@@ -171,10 +173,10 @@ impl SimulatedController {
                 let sensor = Sensor::decode(bytes).map_err(unreadable)?;
                 if let Some(pose) = sensor.planned.and_then(|planned| planned.pose) {
                     let pose = pose.transform()?;
+                    let now = self.arm.state().at;
                     let same = self.same.filter(|(last, _)| *last == pose);
-                    let num = same.map_or(0, |(_, num)| num) + 1;
-                    self.same = Some((pose, num));
-                    self.has_arrived |= self.is_running && num >= NUM_SAME;
+                    let (_, since) = *self.same.insert(same.unwrap_or((pose, now)));
+                    self.has_arrived |= self.is_running && now >= since + SAME_TIME;
                     self.arm.send(pose);
                 }
             }

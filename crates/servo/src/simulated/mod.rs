@@ -6,16 +6,18 @@
 mod arm;
 mod cell;
 mod controller;
+mod part;
 mod run;
 mod single_moves;
 
 pub use self::{
     arm::{ArmDynamics, SimulatedArm},
     cell::{
-        CellCamera, CellSetup, Disturbance, HandEyeError, SimulatedCell, SimulatedCellError,
+        ARM, CellCamera, CellSetup, Disturbance, HandEyeError, SimulatedCell, SimulatedCellError,
         SimulatedTarget,
     },
     controller::{SimulatedController, StreamProtocol},
+    part::{CellPart, ScannedPart},
     run::{RunResult, Sample, run},
     single_moves::run_in_single_moves,
 };

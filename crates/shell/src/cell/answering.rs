@@ -2,6 +2,7 @@
 //! and with the window's library, recipe and calibration; and the page of the dialog about that.
 
 mod rows;
+mod servoing;
 mod work;
 
 use std::{
@@ -487,13 +488,15 @@ pub(crate) fn in_words(last: &LastAnswer) -> String {
         reason => format!("{} ({reason})", answer.verdict.name()),
     };
     let part = (!answer.part.is_empty()).then(|| answer.part.clone());
-    let number = text!("robot-answer-number", number = answer.sequence);
+    // What a robot that servoes is told has a number too, but the window does not learn it.
+    let number =
+        (answer.sequence > 0).then(|| text!("robot-answer-number", number = answer.sequence));
     let age = answer
         .age_ms
         .map(|age| text!("robot-answer-age", age = age));
     let is_unchecked = answer.flags() & Answer::MOTION_UNCHECKED != 0;
     let unchecked = is_unchecked.then(|| text!("robot-answer-motion-unchecked"));
-    let all = [Some(at), Some(verdict), unchecked, part, Some(number), age];
+    let all = [Some(at), Some(verdict), unchecked, part, number, age];
     let all: Vec<String> = all.into_iter().flatten().collect();
     all.join(" · ")
 }

@@ -328,6 +328,7 @@ fn num_frames(spec: &SourceSpec) -> usize {
     match spec {
         SourceSpec::Watched(_) => 1,
         SourceSpec::Simulated(_)
+        | SourceSpec::SimulatedRobot(_)
         | SourceSpec::Recording(_)
         | SourceSpec::Kinect(_)
         | SourceSpec::Genicam(_)

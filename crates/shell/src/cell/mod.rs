@@ -6,6 +6,7 @@ pub mod cell_check;
 mod check_page;
 mod dialog;
 mod dialog_state;
+mod servo_setup;
 mod setup;
 pub mod state;
 
@@ -16,6 +17,7 @@ pub use self::{
         CellInUse, CheckAction, RobotAction, RobotDialog, RobotFile, RobotPage, RobotResult,
         SolvedPairs,
     },
+    servo_setup::{not_calibrated, servo_setup},
     setup::{AnswerSetup, ProgramSetup, ServoSettings, program_file_name},
     state::RobotCell,
 };

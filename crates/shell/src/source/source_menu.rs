@@ -65,6 +65,7 @@ pub fn now(source: &Source) -> String {
         Source::Scan(files) => text!("shell-scan-of", name = shortened(&files.title(), 22)),
         Source::Camera(spec) => match &**spec {
             SourceSpec::Simulated(_) => text!("shell-cell-set-up"),
+            SourceSpec::SimulatedRobot(_) | SourceSpec::Genicam(_) => shortened(&spec.title(), 22),
             SourceSpec::Recording(spec) => {
                 text!(
                     "shell-recording-of",
@@ -78,7 +79,6 @@ pub fn now(source: &Source) -> String {
                 )
             }
             SourceSpec::Kinect(_) => "Kinect".to_owned(),
-            SourceSpec::Genicam(_) => shortened(&spec.title(), 22),
             SourceSpec::OpenNi(_) => "OpenNI".to_owned(),
             SourceSpec::Realsense(_) => "RealSense".to_owned(),
         },

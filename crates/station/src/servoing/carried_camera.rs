@@ -8,7 +8,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use super::{ServoRunError, ServoSetup, ServoTarget, SimulatedTrial};
+use super::{ServoRunError, ServoSetup, ServoTarget, SimulatedTrial, trial::kind_of};
 use crate::{Camera, NewFrame};
 use capture::{
     BackpressurePolicy, CaptureError, Captured, CellScene, DepthSource, Feed, Image, NextCapture,
@@ -54,7 +54,7 @@ impl CarriedCamera {
             arm: Arc::new(Mutex::new(cell.arm())),
             trial,
             period: cell.setup().frame_period,
-            scene: CellScene::Part(cell.setup().kind),
+            scene: CellScene::Part(kind_of(part)?),
             place: cell.task.camera,
             placed: cell.placed_arm().clone(),
             volume: cell.fence.volume,

@@ -6,11 +6,14 @@
 //! ```
 //!
 //! Reports and frames are dated when they arrive, by one clock. Robots that ask for single moves come through the server instead
-//! (`single_moves.rs`); the task of a part is the same for both (`setup.rs`).
+//! (`single_moves.rs`); the task of a part is the same for both (`setup.rs`). A simulated robot is driven in the same program
+//! (`simulated_robot.rs`) or by another one, which dates everything by its clock (`robot_service.rs`, `run_clock.rs`).
 
 mod carried_camera;
 mod robot_link;
+mod robot_service;
 mod run;
+mod run_clock;
 mod setup;
 mod simulated_robot;
 mod single_moves;
@@ -19,9 +22,10 @@ mod trial;
 pub use self::{
     carried_camera::CarriedCamera,
     robot_link::{LinkError, RobotAddress, RobotLink},
+    robot_service::{RobotOutcome, serve_robot},
     run::{RealRobot, ServoJob, ServoOutcome, ServoRunError, servo_real, servo_simulated},
     setup::{PreparedTask, ServoSetup, ServoTarget, SetupError, check_source, reference_of},
-    simulated_robot::SimulatedRobot,
+    simulated_robot::{ProgramEnd, SimulatedRobot},
     single_moves::{RestFrames, RestWatch, ServoParts, SingleMoves},
     trial::SimulatedTrial,
 };

@@ -31,7 +31,7 @@ pub enum RobotAddress {
 /// The port at which Universal Robots' controllers listen for RTDE.
 const RTDE_PORT: u16 = 30004;
 /// How many ports lower they listen for programs.
-const PROGRAM_PORT_OFFSET: u16 = 2;
+pub(super) const PROGRAM_PORT_OFFSET: u16 = 2;
 /// Greatest size of a UDP packet.
 const MAX_PACKET_BYTES: usize = 65_536;
 /// How long a controller may take to accept a connection or bytes.

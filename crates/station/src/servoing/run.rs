@@ -5,14 +5,14 @@ use std::{
         Arc,
         atomic::{AtomicBool, Ordering},
     },
-    time::{Duration, Instant},
+    time::Duration,
 };
 
 use jiff::Timestamp;
 
 use super::{
     LinkError, PreparedTask, RobotAddress, RobotLink, ServoNews, ServoOrder, ServoSetup,
-    SetupError, SimulatedRobot, SimulatedTrial, check_source, servo,
+    SetupError, SimulatedRobot, SimulatedTrial, check_source, run_clock::RunClock, servo,
 };
 use crate::CameraScenes;
 use ::servo::{
@@ -97,6 +97,10 @@ pub enum ServoRunError {
     #[error(transparent)]
     #[advice(transparent)]
     Link(#[from] LinkError),
+    /// The simulated robot whose camera it is cannot be reached.
+    #[error(transparent)]
+    #[advice(transparent)]
+    Camera(#[from] CaptureError),
 }
 
 /// How long the camera's thread waits for a frame before it looks whether the run is over.
@@ -281,6 +285,7 @@ pub fn servo_real(
     for (name, reason) in refused {
         on_news(Some(ServoNews::TargetFrame { name, reason }));
     }
+    let clock = RunClock::of_source(robot.source)?;
     let params = robot.setup.params();
     let stream = robot.address.stream(robot.setup.placed.as_ref())?;
     let mut drive = job.drive(stream, &task, &params, fence)?;
@@ -289,9 +294,11 @@ pub fn servo_real(
         task: Arc::new(task.clone()),
         robot: robot.address.at(link.address()),
     }));
-    let started = Instant::now();
     let source = robot.source.to_string();
-    let row = job.row(&task, &params, robot.address.to_string(), source);
+    let row = ServoRun {
+        is_simulated: robot.source.is_simulated(),
+        ..job.row(&task, &params, robot.address.to_string(), source)
+    };
     let mut scenes = CameraScenes::new(robot.empty_cell);
     let feed = &robot.feed;
     let next_look = |is_over: &AtomicBool| loop {
@@ -301,13 +308,14 @@ pub fn servo_real(
         let Some(FeedItem::Captured(captured)) = feed.wait(POLL_INTERVAL) else {
             continue;
         };
-        let taken_at = captured.arrived.saturating_duration_since(started);
+        let (number, arrived) = (captured.number, captured.arrived);
         let scene = scenes.next(captured.image);
         // It is never cancelled.
         let inspection = inspect(&scene, job.library, &recipe, &Unwatched).ok()?;
+        let taken_at = clock.arrived(number, arrived);
         return Some(Look::new(&task, &inspection, taken_at));
     };
-    let now = || started.elapsed();
+    let now = || clock.now();
     let mut lost: Option<Arc<CaptureError>> = None;
     Ok(logged(
         row,

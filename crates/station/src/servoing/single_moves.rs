@@ -1,6 +1,10 @@
 //! Servoing in single moves, for robots that ask: a run of one client after the other, and its answers.
 
-use std::time::{Duration, Instant};
+use std::{
+    ops::RangeInclusive,
+    sync::Arc,
+    time::{Duration, Instant},
+};
 
 use super::{PreparedTask, ServoJob, ServoSetup, SetupError, run::Log};
 use crate::{Camera, NoFrame, PartFinder};
@@ -11,7 +15,7 @@ use geometry::{
 };
 use inspection::{
     library::Library,
-    pipeline::{NamedRecipe, Unwatched, run as inspect},
+    pipeline::{Inspection, NamedRecipe, Unwatched, run as inspect},
 };
 use records::history::{ServoRecord, ServoRun, ServoSample};
 use serve::{Answer, Asked, Found, Problem, RemainingError, ServoRequest, VerdictCode};
@@ -96,6 +100,8 @@ pub struct RestFrames {
     pub captured: Instant,
     /// Any of [`Answer::SIMULATED`] and [`Answer::MOTION_UNCHECKED`].
     pub marks: u16,
+    /// The last of them and its inspection, if they are at hand.
+    pub last: Option<(Arc<SceneCloud>, Inspection)>,
 }
 
 /// A camera that looks at a part while a robot stands still.
@@ -117,19 +123,22 @@ impl RestWatch<'_> {
         prepared: &PreparedTask,
         asked: &Asked,
         num: usize,
-        mut scene_of: impl FnMut(Captured) -> SceneCloud,
+        mut scene_of: impl FnMut(Captured) -> Arc<SceneCloud>,
     ) -> Result<RestFrames, NoFrame> {
         let (task, recipe) = (&prepared.task, &prepared.recipe);
         let (mut looks, mut first, mut is_simulated) = (Vec::new(), None, false);
+        let mut last = None;
         let (at_most, is_ending) = (self.at_most, self.is_ending);
         let is_checked =
             (self.camera).frames_after(asked, num, at_most, is_ending, |captured| {
                 let arrived = captured.arrived;
                 first.get_or_insert(self.camera.captured_at(&captured));
                 is_simulated |= captured.is_simulated;
-                let inspection = inspect(&scene_of(captured), self.library, recipe, &Unwatched);
+                let scene = scene_of(captured);
+                let inspection = inspect(&scene, self.library, recipe, &Unwatched);
                 let inspection = inspection.expect("never cancelled");
                 looks.push((arrived, Look::new(task, &inspection, Duration::ZERO).seen));
+                last = Some((scene, inspection));
             })?;
         let mark = |is: bool, mark| if is { mark } else { 0 };
         Ok(RestFrames {
@@ -137,6 +146,7 @@ impl RestWatch<'_> {
             captured: first.unwrap_or(asked.at),
             marks: mark(is_simulated, Answer::SIMULATED)
                 | mark(!is_checked, Answer::MOTION_UNCHECKED),
+            last,
         })
     }
 }
@@ -152,10 +162,22 @@ pub struct ServoParts<'a> {
     pub recipe: &'a NamedRecipe,
 }
 
+/// Degrees that a longest move of a millimetre may turn.
+const DEGREES_PER_MM: f64 = 0.1;
+
 impl SingleMoves {
-    /// Moves are at most `max_move` long; the history names the camera `source`.
-    pub fn new(setup: ServoSetup, max_move: PoseDelta, source: String) -> Result<Self, ServoError> {
+    /// Valid longest moves, mm.
+    pub const LONGEST_MOVES_MM: RangeInclusive<f64> = 10.0..=300.0;
+    /// The longest move if no other is asked for.
+    pub const USUAL_LONGEST: Metres = Metres(0.1);
+
+    /// Moves are at most `longest` long, and turn by a tenth of a degree for each millimetre; the history names the camera `source`.
+    pub fn new(setup: ServoSetup, longest: Metres, source: String) -> Result<Self, ServoError> {
         setup.params().checked()?;
+        let max_move = PoseDelta {
+            shift: longest,
+            rotation: Radians::from_degrees(DEGREES_PER_MM * longest.mm()),
+        };
         OnePose::check_longest(&max_move)?;
         Ok(Self {
             setup,

@@ -7,8 +7,8 @@ use inspection::{fixtures::shipped_library, library::Library};
 use servo::{
     Servo, ServoParams, ServoState,
     simulated::{
-        ArmDynamics, CellSetup, Disturbance, HandEyeError, SimulatedCell, SimulatedTarget,
-        StreamProtocol,
+        ArmDynamics, CellPart, CellSetup, Disturbance, HandEyeError, SimulatedCell,
+        SimulatedTarget, StreamProtocol,
     },
 };
 use simulate::PartKind;
@@ -16,7 +16,7 @@ use simulate::PartKind;
 /// A start near the target, so that it takes few seconds.
 fn setup() -> CellSetup {
     CellSetup {
-        kind: PartKind::Fender,
+        part: CellPart::Simulated(PartKind::Fender),
         target: SimulatedTarget::Standard,
         noise: 1.0,
         start: (Metres(0.04), Radians::from_degrees(4.0)),

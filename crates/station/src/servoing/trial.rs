@@ -6,7 +6,7 @@ use super::{ServoRunError, reference_of};
 use geometry::units::{Metres, Radians};
 use inspection::library::Library;
 use servo::simulated::{
-    ArmDynamics, CellSetup, Disturbance, HandEyeError, SimulatedCell, SimulatedTarget,
+    ArmDynamics, CellPart, CellSetup, Disturbance, HandEyeError, SimulatedCell, SimulatedTarget,
 };
 use simulate::PartKind;
 
@@ -21,6 +21,8 @@ pub struct SimulatedTrial {
     pub hand_eye: HandEyeError,
     /// Play of each joint.
     pub play: Radians,
+    /// Time between two reports of the arm.
+    pub cycle: Duration,
 }
 
 /// Time between two frames of the simulated camera.
@@ -36,6 +38,7 @@ impl Default for SimulatedTrial {
                 turn: Radians::from_degrees(2.0),
             },
             play: Radians(2.0 * ArmDynamics::default().backlash),
+            cycle: ArmDynamics::default().period,
         }
     }
 }
@@ -45,23 +48,23 @@ impl SimulatedTrial {
     pub const DELAYS_MS: RangeInclusive<f64> = 0.0..=1000.0;
     /// Valid plays of a joint, degrees.
     pub const PLAYS_DEG: RangeInclusive<f64> = 0.0..=0.5;
+    /// Valid times between two reports, ms: those of controllers.
+    pub const CYCLES_MS: RangeInclusive<f64> = 2.0..=50.0;
     /// Valid errors of the calibration, mm.
     pub const SHIFTS_MM: RangeInclusive<f64> = 0.0..=100.0;
     /// Valid errors of the calibration, degrees.
     pub const TURNS_DEG: RangeInclusive<f64> = 0.0..=20.0;
 
     /// Arranges the cell around a part.
-    pub(super) fn arrange<'a>(
+    pub fn arrange<'a>(
         &self,
         part: &str,
         library: &'a Library,
     ) -> Result<SimulatedCell<'a>, ServoRunError> {
         reference_of(library, part)?;
-        let kind = PartKind::from_name(part).ok_or_else(|| ServoRunError::NotSimulated {
-            part: part.to_owned(),
-        })?;
+        let kind = kind_of(part)?;
         let setup = CellSetup {
-            kind,
+            part: CellPart::Simulated(kind),
             target: SimulatedTarget::Standard,
             noise: 1.0,
             start: (Metres(0.25), Radians::from_degrees(25.0)),
@@ -69,6 +72,7 @@ impl SimulatedTrial {
             frame_period: FRAME_PERIOD,
             delay: self.delay,
             dynamics: ArmDynamics {
+                period: self.cycle,
                 backlash: 0.5 * self.play.0,
                 ..ArmDynamics::default()
             },
@@ -77,4 +81,11 @@ impl SimulatedTrial {
         };
         Ok(SimulatedCell::arrange(setup, library)?)
     }
+}
+
+/// The simulated part of this name.
+pub(super) fn kind_of(part: &str) -> Result<PartKind, ServoRunError> {
+    PartKind::from_name(part).ok_or_else(|| ServoRunError::NotSimulated {
+        part: part.to_owned(),
+    })
 }

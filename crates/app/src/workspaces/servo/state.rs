@@ -5,14 +5,14 @@ use std::{
     sync::{Arc, atomic::Ordering},
 };
 
-use crate::workspaces::servo::work::{self, Orders, RealCell, RunRequest, RunView, not_calibrated};
+use crate::workspaces::servo::work::{self, Orders, RealCell, RunRequest, RunView};
 use capture::SourceSpec;
 use files::SCENE_ENDINGS;
 use records::history::{ServoSample, ServoTargetKind};
 use servo::{ServoState, simulated::StreamProtocol};
 use shell::{
     action::Action,
-    cell::ServoSettings,
+    cell::{ServoSettings, not_calibrated},
     file_dialog::{FileChoice, FileDialog, FileRequest, all_files},
     notice::Notice,
     session::{PaintTab, Session, WorkspaceKind},

@@ -1,7 +1,7 @@
 //! The run, on the task's thread: reads what it needs, servoes the robot, and writes the row of the history.
 
 use std::{
-    path::{Path, PathBuf},
+    path::PathBuf,
     sync::{
         Arc,
         atomic::{AtomicBool, Ordering},
@@ -11,7 +11,7 @@ use std::{
 
 use nalgebra::Point3;
 
-use capture::{SourceSpec, read_image};
+use capture::SourceSpec;
 use geometry::{
     oriented_box::OrientedBox,
     rigid::PoseDelta,
@@ -21,23 +21,20 @@ use inspection::{
     library::Library,
     pipeline::{NamedRecipe, ProgressObserver as _},
 };
-use records::history::{ServoRecord, ServoSample, ServoTargetKind};
-use robot::calibration::{CameraPlace, CellCalibration};
-use servo::{ServoParams, Standing, StopReason, Task, simulated::StreamProtocol};
+use records::history::{ServoRecord, ServoSample};
+use robot::calibration::CameraPlace;
+use servo::{Standing, StopReason, Task, simulated::StreamProtocol};
 use shell::{
-    cell::{ProgramSetup, ServoSettings},
-    inspection::{
-        library_cache::{LibraryCache, LoadedLibrary},
-        report_files::ProgramTarget,
-    },
+    cell::{ProgramSetup, ServoSettings, servo_setup},
+    inspection::library_cache::{LibraryCache, LoadedLibrary},
 };
-use stages::scene::{EmptyCell, SceneCloud, scene_from_image};
+use stages::scene::EmptyCell;
 use station::servoing::{
     RealRobot, RobotAddress, ServoJob, ServoNews, ServoOrder, ServoOutcome, ServoSetup,
-    ServoTarget, SimulatedTrial, servo_real, servo_simulated,
+    SimulatedTrial, servo_real, servo_simulated,
 };
 use ui::{
-    language::{text, what_and_advice},
+    language::what_and_advice,
     task::{TaskContext, TaskError},
     user_error::UserError,
     viewport::{PointSet, Role},
@@ -224,7 +221,7 @@ pub(super) fn run(
                 .map_err(|error| UserError::of(&error))?
         }
         Some(cell) => {
-            let setup = setup(request, &cell.calibration, &target?, params)?;
+            let setup = servo_setup(&request.settings, &target?, &cell.calibration)?;
             real(request, cell, &job, &setup, &loaded, on_news)?
         }
     };
@@ -243,51 +240,6 @@ pub(super) fn run(
     }
     view.record = record;
     Ok(Box::new(view))
-}
-
-/// There is no calibration to servo by.
-pub(super) fn not_calibrated() -> UserError {
-    UserError {
-        what: text!("servoing-not-calibrated"),
-        advice: text!("servoing-not-calibrated-advice"),
-    }
-}
-
-/// Reads calibration and target of a real robot.
-fn setup(
-    request: &RunRequest,
-    calibration: &Path,
-    program: &ProgramTarget,
-    params: ServoParams,
-) -> Result<ServoSetup, UserError> {
-    if !calibration.exists() {
-        return Err(not_calibrated());
-    }
-    let read = CellCalibration::read(calibration).map_err(|error| UserError::of(&error))?;
-    if read.is_edited {
-        return Err(UserError {
-            what: text!("robot-edited"),
-            advice: text!("robot-edited-advice"),
-        });
-    }
-    let settings = &request.settings;
-    let target = match settings.target {
-        ServoTargetKind::StandardPosition => ServoTarget::StandardPosition,
-        ServoTargetKind::PathStart => ServoTarget::PathStart,
-        ServoTargetKind::CameraPose => {
-            let scenes = settings.seen_as.iter().map(|path| scene_of(path));
-            ServoTarget::SeenAs(scenes.collect::<Result<Vec<_>, UserError>>()?)
-        }
-    };
-    Ok(ServoSetup {
-        camera: read.calibration.camera,
-        calibration: read.calibration.bounds(),
-        target,
-        flange_from_nozzle: program.settings.flange_from_nozzle,
-        placed: program.arm.clone(),
-        volume: settings.volume,
-        params,
-    })
 }
 
 fn real(
@@ -318,9 +270,4 @@ fn real(
     drop(feed);
     cameras.rest();
     outcome.map_err(|error| UserError::of(&error))
-}
-
-fn scene_of(path: &Path) -> Result<(String, SceneCloud), UserError> {
-    let (image, _) = read_image(path).map_err(|error| UserError::of(&error))?;
-    Ok((files::file_name(path), scene_from_image(image)))
 }

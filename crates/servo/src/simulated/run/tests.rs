@@ -1,11 +1,13 @@
 use super::*;
-use crate::simulated::{ArmDynamics, CellSetup, Disturbance, HandEyeError, SimulatedTarget};
+use crate::simulated::{
+    ArmDynamics, CellPart, CellSetup, Disturbance, HandEyeError, SimulatedTarget,
+};
 use inspection::fixtures::shipped_library;
 use simulate::PartKind;
 
 fn setup(disturbance: Disturbance) -> CellSetup {
     CellSetup {
-        kind: PartKind::Fender,
+        part: CellPart::Simulated(PartKind::Fender),
         target: SimulatedTarget::Standard,
         noise: 1.0,
         start: (Metres(0.25), Radians::from_degrees(25.0)),

@@ -13,7 +13,10 @@ use std::{
 
 use jiff::Timestamp;
 
-use super::rows::{AnsweredScene, TriggerRows};
+use super::{
+    rows::{AnsweredScene, TriggerRows},
+    servoing::{ServoInputs, Servoing},
+};
 use crate::{
     inspection::{
         inspected::entry_of,
@@ -27,7 +30,7 @@ use crate::{
 use capture::{self, CaptureError, Feed, SourceSpec};
 use geometry::error::{Advice as _, guarded, lock};
 use inspection::{
-    library::{GivenNumbers, LibraryPlace, PartNumbers, Truth},
+    library::{GivenNumbers, Library, LibraryPlace, PartNumbers, Truth},
     pipeline::{Expected, Inspection, NamedRecipe, ProgressObserver as _, Unwatched},
 };
 use records::{
@@ -39,11 +42,13 @@ use robot::RobotFrame;
 use serve::{
     Answer, Asked, CameraState, ClientEvent, Found, FrameParts, InspectionRecord, Inspector,
     ListenAddress, Listener, PoseKind, Problem, ServeError, Server, ServerHandle, ServerSettings,
-    VerdictCode,
+    ServoRequest, VerdictCode,
 };
 use stages::scene::{EmptyCell, SceneCloud};
 use station::{
-    Answered, Answering, Camera, NewFrame, NoFrame, NumberedPart, PartFinder, Subject, traced,
+    Answered, Answering, Camera, NewFrame, NoFrame, NumberedPart, PartFinder, Subject,
+    servoing::{RestFrames, RestWatch, ServoParts},
+    traced,
 };
 use ui::{
     language::{Message, described, text},
@@ -68,7 +73,8 @@ pub struct AnsweringStatus {
     pub client: Option<ClientEvent>,
     /// The answer to the last trigger.
     pub last: Option<LastAnswer>,
-    /// Why the last inspection was not kept, which does not affect its answer, or why the parts have no stored numbers.
+    /// Why the last inspection was not kept, which does not affect its answer, why the parts have no stored numbers, or why robots
+    /// cannot servo.
     pub problem: Option<UserError>,
 }
 
@@ -86,13 +92,14 @@ pub struct LastAnswer {
 pub(super) struct AnswerInputs {
     /// The source, while Live follows one.
     followed: Option<SourceSpec>,
-    recipe: Arc<NamedRecipe>,
+    pub(super) recipe: Arc<NamedRecipe>,
     /// What should hang there, unless the trigger says it.
     expected: Result<Expected, NotKnown>,
     /// The table of the orders that triggers may name.
     orders: Result<Option<Arc<Orders>>, NotKnown>,
     empty_cell: Option<Arc<EmptyCell>>,
-    robot: Arc<RobotFrame>,
+    pub(super) robot: Arc<RobotFrame>,
+    pub(super) servo: ServoInputs,
     pose: PoseKind,
     trace: CurrentTrace,
 }
@@ -107,6 +114,7 @@ impl AnswerInputs {
             orders: session.orders(),
             empty_cell: session.empty_cell.clone(),
             robot,
+            servo: ServoInputs::of(session),
             pose: session.answering.pose,
             trace: session.trace.clone(),
         }
@@ -210,6 +218,7 @@ pub(super) fn answer(
         events,
         handle: server.handle(),
         rows: TriggerRows::new(writer, Arc::clone(&parts)),
+        servoing: Servoing::default(),
         last: None,
         answered_parts: None,
         status: AnsweringStatus {
@@ -273,6 +282,7 @@ struct AnsweringSession<'a> {
     events: Receiver<ClientEvent>,
     handle: ServerHandle,
     rows: TriggerRows,
+    servoing: Servoing,
     /// The inspection whose answer is on its way.
     last: Option<AnsweredFrame>,
     /// The parts of the last answer.
@@ -413,6 +423,20 @@ impl Inspector for AnsweringSession<'_> {
         found
     }
 
+    fn servo(&mut self, request: &ServoRequest, client: u64, asked: &Asked) -> Found {
+        let found = self.next_move(request, client, asked);
+        self.status.last = Some(LastAnswer {
+            at: asked.by_clock,
+            answer: Answer {
+                verdict: found.verdict,
+                part: found.part.clone(),
+                problem: found.problem.clone(),
+                ..Answer::default()
+            },
+        });
+        found
+    }
+
     fn recorded(&mut self, record: InspectionRecord) {
         let answer = record.answer();
         if let Some(last) = self.status.last.as_mut().filter(|_| answer.index <= 1) {
@@ -463,6 +487,78 @@ impl Inspector for AnsweringSession<'_> {
 impl AnsweringSession<'_> {
     fn is_ending(&self) -> bool {
         self.context.is_cancelled() || self.is_ending.load(Ordering::Relaxed)
+    }
+
+    /// Where a robot that servoes should go next.
+    fn next_move(&mut self, request: &ServoRequest, client: u64, asked: &Asked) -> Found {
+        let inputs = self.follow();
+        let loaded = self.library_cache.get();
+        self.know(&loaded, &inputs);
+        let Some(source) = inputs.followed.clone() else {
+            let error = Arc::new(CaptureError::NotFollowed);
+            return Found::error((&NoFrame::Failed { error }).into());
+        };
+        let history = self.library_cache.history();
+        let moves = (self.servoing).moves(&inputs, &source, &loaded, history);
+        let mut moves = match moves {
+            Ok(moves) => moves,
+            Err(problem) => return Found::error(problem),
+        };
+        let fitted = loaded.fitting(&inputs.recipe, &Unwatched);
+        let library: &Library = &fitted.expect("not cancelled");
+        let parts = ServoParts {
+            finder: &self.finder,
+            library,
+            recipe: &inputs.recipe,
+        };
+        let watch = RestWatch {
+            camera: &self.camera,
+            library,
+            at_most: FRAME_TIMEOUT,
+            is_ending: &|| self.is_ending(),
+        };
+        let mut is_reported = false;
+        let mut found = moves.answer(request, client, asked, parts, |prepared, asked, num| {
+            let scene_of = |captured| self.scene_of(captured, &inputs);
+            let frames = watch.looks(prepared, asked, num, scene_of)?;
+            is_reported = self.is_reported(&source, &frames, &prepared.recipe);
+            Ok(frames)
+        });
+        if is_reported && matches!(found.verdict, VerdictCode::Move | VerdictCode::Done) {
+            moves.end_run();
+            found = Found {
+                verdict: VerdictCode::Stay,
+                pose: None,
+                servo_error: None,
+                problem: Problem::reported_wrong(),
+                ..found
+            };
+        }
+        self.servoing.keep(moves, inputs, source, loaded, history);
+        found
+    }
+
+    /// True if a person has reported that the part in the last of these frames is another one.
+    fn is_reported(&self, source: &SourceSpec, frames: &RestFrames, recipe: &NamedRecipe) -> bool {
+        let Some((scene, inspection)) = &frames.last else {
+            return false;
+        };
+        let verdict = &inspection.verdict;
+        let parts = lock(self.parts);
+        let (Some(name), Some(ids)) = (
+            verdict.guess().filter(|_| verdict.is_accepted()),
+            parts.ids_now(&source.to_string(), true),
+        ) else {
+            return false;
+        };
+        let frame = AnsweredScene {
+            scene: Arc::clone(scene),
+            inspections: vec![inspection.clone()],
+            recipe: recipe.clone(),
+        };
+        let hung = frame.hung(&ids);
+        hung.iter()
+            .any(|hung| parts.reported_as(hung, name).is_some())
     }
 
     /// Returns the current inputs. Restarts the camera if the window follows another source, or follows its source again.
@@ -587,7 +683,8 @@ impl AnsweringSession<'_> {
     /// Publishes the status if it has changed.
     fn publish(&mut self) {
         self.status.num_clients = self.handle.num_clients();
-        let problem = self.unkept.as_ref().or(self.unnumbered.as_ref());
+        let problems = [&self.unkept, &self.unnumbered, &self.servoing.problem];
+        let problem = problems.into_iter().find_map(Option::as_ref);
         self.status.problem = problem.cloned();
         if self.sent.as_ref() != Some(&self.status) {
             self.sent = Some(self.status.clone());
@@ -596,7 +693,8 @@ impl AnsweringSession<'_> {
     }
 
     /// Waits until the history has written everything handed over.
-    fn finish(self) -> AnsweringStatus {
+    fn finish(mut self) -> AnsweringStatus {
+        self.servoing.end(self.library_cache.history());
         drop(self.rows);
         self.status
     }

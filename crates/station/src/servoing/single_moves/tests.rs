@@ -28,7 +28,7 @@ use serve::{
 use servo::{
     ServoParams, Target,
     simulated::{
-        ArmDynamics, CellSetup, Disturbance, HandEyeError, SimulatedCell, SimulatedTarget,
+        ArmDynamics, CellPart, CellSetup, Disturbance, HandEyeError, SimulatedCell, SimulatedTarget,
     },
 };
 use simulate::PartKind;
@@ -51,7 +51,7 @@ const STAY: u32 = 10;
 
 fn setup(disturbance: Disturbance) -> CellSetup {
     CellSetup {
-        kind: PartKind::Fender,
+        part: CellPart::Simulated(PartKind::Fender),
         target: SimulatedTarget::Standard,
         noise: 1.0,
         start: (Metres(0.25), Radians::from_degrees(25.0)),
@@ -125,6 +125,7 @@ impl Inspector for CellInspector<'_> {
                 looks,
                 captured: asked.at,
                 marks: Answer::SIMULATED,
+                last: None,
             })
         })
     }
@@ -223,15 +224,11 @@ fn served(
         servo_setup.calibration = Some(calibration);
     }
     change(&mut servo_setup);
-    let max_move = PoseDelta {
-        shift: Metres(0.1),
-        rotation: Radians::from_degrees(10.0),
-    };
     let number_of = |name: &str| {
         let index = library.references.iter().position(|one| one.name == name);
         index.expect("enrolled") as u32 + 1
     };
-    let has_path = setup.target == SimulatedTarget::PathStart;
+    let has_path = cell.setup().target == SimulatedTarget::PathStart;
     let parts = (1..)
         .zip(&library.references)
         .map(|(number, reference)| NumberedPart {
@@ -275,7 +272,8 @@ fn served(
         world: &world,
         library: &library,
         finder,
-        moves: SingleMoves::new(servo_setup, max_move, "camera".into()).expect("sound"),
+        moves: SingleMoves::new(servo_setup, SingleMoves::USUAL_LONGEST, "camera".into())
+            .expect("sound"),
         is_ending: &is_ending,
     };
     thread::scope(|scope| {
@@ -568,7 +566,7 @@ fn a_robot_of_each_protocol_is_brought_to_its_target_move_by_move() {
 fn a_nozzle_is_brought_to_the_start_of_a_path() {
     let to_path = CellSetup {
         target: SimulatedTarget::PathStart,
-        kind: PartKind::Grille,
+        part: CellPart::Simulated(PartKind::Grille),
         hand_eye: HandEyeError {
             shift: Metres::from_mm(1.0),
             turn: Radians::from_degrees(0.1),
