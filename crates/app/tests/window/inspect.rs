@@ -388,7 +388,7 @@ fn keys_pressed_after_one_that_opens_a_dialog_do_nothing_even_in_the_same_frame(
         harness.step();
         let state = harness.state().state();
         let is_asked = harness.state().robot().dialog().is_some();
-        (state.session.theme, state.is_help_open, is_asked)
+        (state.session.theme, state.help.is_some(), is_asked)
     };
     let dark = ThemeChoice::Dark;
     let after_help = press(&mut harness, &[Key::F1, Key::T, Key::B]);
