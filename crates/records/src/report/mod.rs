@@ -41,6 +41,6 @@ pub use self::{
 pub use self::{
     evaluation_report::EvaluationReport,
     line::{CaptureLine, InspectionLine, SCHEMA, ScanLine, TimingsLine},
-    problem::ProblemReport,
+    problem::{ProblemReport, compared_entries},
     text_table::TextTable,
 };

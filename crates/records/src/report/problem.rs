@@ -6,8 +6,8 @@ use crate::history::{FrameError, write_frame};
 use files::{FileError, file_name, folder_of, new_folder, read_bytes, write_atomically, write_zip};
 use geometry::{error::Advice as _, parallel::num_cores};
 use inspection::{
-    library::{LibraryPlace, PartName},
-    pipeline::{NamedRecipe, RecipeFile},
+    library::{LibraryPlace, PartMeta, PartName},
+    pipeline::{Inspection, NamedRecipe, RecipeFile},
 };
 use stages::scene::SceneCloud;
 
@@ -30,6 +30,18 @@ pub struct ProblemReport<'a> {
     pub system: &'a [String],
     /// Other texts: names of the files, and contents.
     pub texts: &'a [(&'static str, String)],
+}
+
+/// The entries of the library for the part that the scene of an inspection is most like: it and its other references. `parts` are
+/// those of the library, in its order.
+pub fn compared_entries(inspection: &Inspection, parts: &[PartMeta]) -> Vec<PartName> {
+    let best = inspection.ranking.entries.first();
+    let Some(best) = best.and_then(|best| parts.get(best.reference)) else {
+        return Vec::new();
+    };
+    let same = parts.iter();
+    let same = same.filter(|part| part.part_name() == best.part_name());
+    same.map(|part| part.name.clone()).collect()
 }
 
 impl ProblemReport<'_> {

@@ -16,7 +16,10 @@ use crate::{
     state::{State, notify},
 };
 use inspection::{library::PartName, pipeline::NamedRecipe};
-use records::{history::Traceability, report::ProblemReport};
+use records::{
+    history::Traceability,
+    report::{ProblemReport, compared_entries},
+};
 use ui::{
     language::text,
     theme::space,
@@ -89,16 +92,8 @@ fn recipe(state: &State) -> Arc<NamedRecipe> {
     Arc::clone(recipe)
 }
 
-/// The entries of the library for the part that the scene is most like: it and its other references.
 fn entries(inspected: &Inspected) -> Vec<PartName> {
-    let parts = &inspected.library.parts;
-    let best = inspected.inspection.ranking.entries.first();
-    let Some(best) = best.and_then(|best| parts.get(best.reference)) else {
-        return Vec::new();
-    };
-    let same = parts.iter();
-    let same = same.filter(|part| part.part_name() == best.part_name());
-    same.map(|part| part.name.clone()).collect()
+    compared_entries(&inspected.inspection, &inspected.library.parts)
 }
 
 /// The text without network addresses.
