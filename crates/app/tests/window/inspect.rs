@@ -108,7 +108,9 @@ fn a_broken_file_is_a_notice_and_the_window_goes_on() {
     harness.run_steps(2);
     assert!(harness.query_by_label("Dismiss").is_none());
     harness.get_by_label_contains("Source").click();
-    harness.run_steps(2);
+    harness.run_steps(4);
+    harness.get_by_label("Simulated cell").click();
+    harness.run_steps(4);
     harness.get_by_label("Every part in turn").click();
     settle(&mut harness);
     harness.get_by_label("Simulated frame 2");

@@ -22,7 +22,7 @@ use ui::{
     parameter_control::{self, fold},
     theme::{Theme, font, space},
     tool_row::choice,
-    widgets::{grouped, heading, line_edit, menu_list, row, shortened, text_button},
+    widgets::{grouped, heading, line_edit, menu_button, menu_list, row, shortened, text_button},
 };
 
 /// Characters of a part's title on its menu.
@@ -228,7 +228,7 @@ pub(super) fn menu(
     hint: String,
     entries: impl FnOnce(&mut Ui),
 ) {
-    let button = ui.menu_button(text, entries).response;
+    let button = menu_button(ui, text, entries).response;
     if !ui.is_rect_visible(button.rect) {
         Popup::close_id(ui.ctx(), Popup::default_response_id(&button));
     }
