@@ -63,7 +63,10 @@ inspect-pose-uncertainty = Pose-Unsicherheit (95 %)
 inspect-runner-up = zweitbeste Pose
 inspect-times-worse = { $ratio }× schlechter
 inspect-as-good = gleich gut
-inspect-iterations = { $num } Iterationen
+inspect-iterations = { $num ->
+        [one] { $num } Iteration
+       *[other] { $num } Iterationen
+    }
 inspect-ambiguous = Eine andere Pose passt ebenso gut: prüfen, wie herum das Teil hängt
 inspect-inspection = Prüfung
 inspect-time = Zeit

@@ -81,7 +81,10 @@ shell-next = Weiter
 shell-same-digits = Dieselben Ziffern noch einmal eingeben
 shell-set-the-pin = PIN festlegen
 shell-pin-forgotten = Vergessen? Den Einrichter rufen
-shell-num-digits = { $num } Ziffern
+shell-num-digits = { $num ->
+        [one] { $num } Ziffer
+       *[other] { $num } Ziffern
+    }
 shell-erase = Löschen
 shell-digit = Ziffer { $digit }
 shell-locked = Gesperrt: Das Fenster wurde eine Weile nicht benutzt

@@ -63,7 +63,10 @@ inspect-pose-uncertainty = pose uncertainty (95 %)
 inspect-runner-up = runner-up pose
 inspect-times-worse = { $ratio }× worse
 inspect-as-good = as good
-inspect-iterations = { $num } iterations
+inspect-iterations = { $num ->
+        [one] { $num } iteration
+       *[other] { $num } iterations
+    }
 inspect-ambiguous = Another pose fits as well: check which way round the part hangs
 inspect-inspection = Inspection
 inspect-time = time

@@ -81,7 +81,10 @@ shell-next = Next
 shell-same-digits = Enter the same digits again
 shell-set-the-pin = Set the PIN
 shell-pin-forgotten = Forgotten? Ask the engineer
-shell-num-digits = { $num } digits
+shell-num-digits = { $num ->
+        [one] { $num } digit
+       *[other] { $num } digits
+    }
 shell-erase = Erase
 shell-digit = Digit { $digit }
 shell-locked = Locked: the window was not used for a while

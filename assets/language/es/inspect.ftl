@@ -63,7 +63,10 @@ inspect-pose-uncertainty = incertidumbre de pose (95 %)
 inspect-runner-up = segunda mejor pose
 inspect-times-worse = { $ratio }× peor
 inspect-as-good = igual de buena
-inspect-iterations = { $num } iteraciones
+inspect-iterations = { $num ->
+        [one] { $num } iteración
+       *[other] { $num } iteraciones
+    }
 inspect-ambiguous = Otra pose encaja igual de bien: comprobar en qué sentido cuelga la pieza
 inspect-inspection = Inspección
 inspect-time = tiempo

@@ -81,7 +81,10 @@ shell-next = Siguiente
 shell-same-digits = Introducir de nuevo las mismas cifras
 shell-set-the-pin = Definir el PIN
 shell-pin-forgotten = ¿Olvidado? Avisar al técnico
-shell-num-digits = { $num } cifras
+shell-num-digits = { $num ->
+        [one] { $num } cifra
+       *[other] { $num } cifras
+    }
 shell-erase = Borrar
 shell-digit = Cifra { $digit }
 shell-locked = Bloqueada: la ventana no se ha usado durante un rato
