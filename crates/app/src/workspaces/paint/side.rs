@@ -186,17 +186,19 @@ fn coat(ui: &mut Ui, paint: &PaintState, actions: &mut Vec<PaintAction>) {
     heading(ui, &text!("paint-coat"));
     ui.horizontal(|ui| {
         let kept = design.kept.name.as_str();
+        let title = parameters::coat_title(kept);
         let name = if design.is_coat_changed() {
-            text!("paint-coat-changed", coat = kept)
+            text!("paint-coat-changed", coat = title)
         } else {
-            kept.to_owned()
+            title
         };
         let text = format!("{} ▼", shortened(&name, TITLE));
         let label = text!("paint-coat-named", coat = name);
         let notes = parameters::coat_notes(&design.kept.notes);
         menu(ui, text, &label, notes, |ui| {
             for coat in &paint.coats {
-                if ui.selectable_label(coat == kept, coat).clicked() {
+                let title = parameters::coat_title(coat);
+                if ui.selectable_label(coat == kept, title).clicked() {
                     actions.push(PaintAction::ChooseCoat(coat.clone()));
                     ui.close();
                 }
