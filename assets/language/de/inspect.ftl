@@ -208,3 +208,12 @@ inspect-path-not-written = Keine Lackierbahn geschrieben: { $why }
 inspect-report-written = { $files }, die Bilder der Stufen und eine Zeile von { $table } in { $folder } geschrieben
 inspect-report-set-aside = { $files }, die Bilder der Stufen und eine Zeile von { $table } in { $folder } geschrieben; die letzte Zeile war unvollständig und liegt jetzt in { $aside }
 inspect-watching-folder = Ordner wird überwacht
+
+## The values under the pointer
+
+inspect-at-reading = Spalte { $column }, Zeile { $row }: { $depth } von der Kamera
+inspect-at-no-reading = Spalte { $column }, Zeile { $row }: kein Messwert
+inspect-at-surface = x { $x }, y { $y }, Höhe { $height }
+inspect-at-plane = x { $x }, y { $y }
+inspect-at-ray = x { $x }, y { $y } · vom Schwerpunkt L { $length }, Θ { $angle }
+inspect-at-iteration = Iteration { $iteration }: E { $e } m²
