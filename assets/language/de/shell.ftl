@@ -189,7 +189,7 @@ shell-no-such-folder = Diesen Ordner gibt es nicht
 shell-not-a-folder = Das ist eine Datei, kein Ordner
 shell-confirm-replace = Eine Datei dieses Namens existiert: zum Ersetzen erneut bestätigen
 shell-no-parent-folder = Der Ordner dieser Datei existiert nicht
-shell-no-file-dialog = Der Desktop bietet keinen Dateidialog (Paket xdg-desktop-portal-gtk oder zenity): Pfad eingeben
+shell-no-file-dialog = Der Desktop bietet keinen Dateidialog (Paket xdg-desktop-portal-gtk oder zenity): Pfad eingeben oder unten wählen
 shell-path = Pfad
 shell-ok = OK
 

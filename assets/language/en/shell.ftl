@@ -189,7 +189,7 @@ shell-no-such-folder = There is no such folder
 shell-not-a-folder = This is a file, not a folder
 shell-confirm-replace = A file of this name exists: confirm again to replace it
 shell-no-parent-folder = The folder of this file does not exist
-shell-no-file-dialog = The desktop offers no file dialog (package xdg-desktop-portal-gtk or zenity): type the path
+shell-no-file-dialog = The desktop offers no file dialog (package xdg-desktop-portal-gtk or zenity): type the path, or choose it below
 shell-path = Path
 shell-ok = OK
 

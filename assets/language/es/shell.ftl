@@ -189,7 +189,7 @@ shell-no-such-folder = No existe esa carpeta
 shell-not-a-folder = Es un archivo, no una carpeta
 shell-confirm-replace = Ya existe un archivo con ese nombre: confirmar otra vez para reemplazarlo
 shell-no-parent-folder = La carpeta de este archivo no existe
-shell-no-file-dialog = El escritorio no ofrece diálogo de archivos (paquete xdg-desktop-portal-gtk o zenity): escribir la ruta
+shell-no-file-dialog = El escritorio no ofrece diálogo de archivos (paquete xdg-desktop-portal-gtk o zenity): escribir la ruta o elegirla abajo
 shell-path = Ruta
 shell-ok = Aceptar
 

@@ -500,6 +500,12 @@ impl Window {
                 actions.extend(notice.map(Action::Notify));
             }
         }
+        if self.services.dialogs.takes_keys() {
+            let is_key = |event: &egui::Event| {
+                matches!(event, egui::Event::Key { .. } | egui::Event::Text(_))
+            };
+            ctx.input_mut(|input| input.events.retain(|event| !is_key(event)));
+        }
         let work = self.work();
         if self.state.session.is_operator_view() {
             bars::operators(ui, &self.state, &self.robot, work, &mut actions);
