@@ -166,14 +166,14 @@ shell-watched-folder = 保存采集的文件夹
 shell-open-part = 打开要注册的场景、点云或网格
 shell-cannot-be-made = 无法创建 { $path }：{ $why }
 shell-choose-another-folder = 请选择其他文件夹
-shell-type-a-path = 请输入路径，或在下方选择
+shell-type-a-path = 请输入路径
 shell-add-a-name = 这是文件夹：请补充文件名
 shell-no-such-file = 文件不存在
 shell-no-such-folder = 文件夹不存在
 shell-not-a-folder = 这是文件，不是文件夹
 shell-confirm-replace = 已有同名文件：再次确认以替换
 shell-no-parent-folder = 该文件所在的文件夹不存在
-shell-no-file-dialog = 桌面环境不提供文件对话框（软件包 xdg-desktop-portal-gtk 或 zenity）：请输入路径
+shell-no-file-dialog = 桌面环境不提供文件对话框（软件包 xdg-desktop-portal-gtk 或 zenity）：请输入路径，或在下方选择
 shell-path = 路径
 shell-ok = 确定
 
