@@ -314,10 +314,12 @@ impl Reporter<'_> {
         found: &[Inspection],
     ) -> Result<PathBuf, ReportError> {
         let subject = self.subject(path, scene);
-        let parts = found.iter();
-        let parts = parts.map(|inspection| self.inspected(&subject, scene, inspection));
-        let parts: Vec<Inspected<'_>> = parts.collect();
-        let line = Inspected::line_of_all(&parts, &Traceability::default());
+        let line = {
+            let parts = found.iter();
+            let parts = parts.map(|inspection| self.inspected(&subject, scene, inspection));
+            let parts: Vec<Inspected<'_>> = parts.collect();
+            Inspected::line_of_all(&parts, &Traceability::default())
+        };
         let entries = found.iter();
         let entries = entries.flat_map(|found| compared_entries(found, &self.load.parts));
         let entries: BTreeSet<PartName> = entries.collect();

@@ -55,7 +55,9 @@ impl ProblemReport<'_> {
             };
             match library.contents_of(name) {
                 Ok(contents) => {
-                    let within = |(file, content)| (format!("library/{name}/{file}"), content);
+                    let within = |(file, content): (String, Vec<u8>)| {
+                        (format!("library/{name}/{file}"), content)
+                    };
                     files.extend(contents.into_iter().map(within));
                 }
                 Err(error) => not_enclosed.push(format!("{error}; {}", error.advice())),

@@ -288,7 +288,7 @@ mod tests {
         assert_eq!(names, BTreeSet::from(pages));
         for (index, page) in GUIDE.iter().enumerate() {
             assert!(
-                page.title().len() > 3 && page.sections.len() > 1,
+                page.title().len() > 3 && !page.sections.is_empty(),
                 "{}",
                 page.name
             );
