@@ -23,10 +23,10 @@ pub(super) enum Block {
 /// A stretch of text with one look.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Span {
-    pub(super) text: String,
+    text: String,
     style: SpanStyle,
     /// Where it leads.
-    pub(super) target: Option<String>,
+    target: Option<String>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -111,7 +111,7 @@ fn cells(row: &str) -> Vec<Vec<Span>> {
 }
 
 /// Reads the text of a paragraph, an item or a cell.
-pub(super) fn spans(text: &str) -> Vec<Span> {
+fn spans(text: &str) -> Vec<Span> {
     let mut spans = Vec::new();
     add_spans(text, SpanStyle::Plain, None, &mut spans);
     spans
@@ -187,7 +187,7 @@ fn markup(text: &str) -> Option<(&str, Markup<'_>, &str)> {
 }
 
 /// The text without its looks.
-pub(super) fn flat(spans: &[Span]) -> String {
+fn flat(spans: &[Span]) -> String {
     spans.iter().map(|span| span.text.as_str()).collect()
 }
 
