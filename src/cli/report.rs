@@ -1,6 +1,7 @@
 //! `partsight report`: writes the pose report of captured scenes for people, programs and robots.
 
 use std::{
+    collections::BTreeSet,
     path::{Path, PathBuf},
     sync::Arc,
 };
@@ -24,13 +25,13 @@ use super::{
 };
 use geometry::error::Advice as _;
 use inspection::{
-    library::{LibraryLoad, PartMeta},
+    library::{LibraryLoad, PartMeta, PartName, open_library},
     pipeline::{Inspection, NamedRecipe, Unwatched, run_all},
 };
 use records::{
     history::Traceability,
     report::{
-        ReportError, ReportFolder, WrittenPose,
+        ProblemReport, ReportError, ReportFolder, WrittenPose, compared_entries,
         pose_report::{PdfPictures, PoseReport, ReportSubject, SeenBy, pose_pdf},
         stage_pictures,
     },
@@ -50,12 +51,13 @@ Examples:
   partsight report door.pcd --out reports --format json,pdf --convention kuka
   partsight report captures/*.png --out reports --format csv
   partsight report door.pcd --out reports --convention fanuc --calibration cell.toml
+  partsight report door.pcd --out reports --format problem
   partsight report last-week.pcd --out reports --calibration cell.toml --force
   partsight report --conventions
   partsight report --schema > pose-report.schema.json
 
 Writes FILE.pose.json and FILE.pose.pdf for each file; of several parts of a frame FILE_1, FILE_2 and so on. csv appends a row for \
-each part to poses.CONVENTION.csv. A part that is not \
+each part to poses.CONVENTION.csv; problem writes FILE.problem.zip. A part that is not \
 accepted, or about which there are doubts, is reported too, without numbers that a robot could move by.
 Files: PCD, PLY, XYZ or CSV text, or a 16-bit depth PNG with its intrinsics in a JSON beside it; metres.
 Exit codes: 0 every input accepted, 1 something was not accepted, 2 something could not be read or written.")]
@@ -107,6 +109,8 @@ enum Format {
     Csv,
     /// A page for people
     Pdf,
+    /// A ZIP archive of scene, library entry and recipe, with which somebody else sees the same
+    Problem,
 }
 
 /// A JSON schema that can be printed.
@@ -217,16 +221,26 @@ impl Reporter<'_> {
         before(&mut scene, self.empty_cell.as_ref(), &name, console);
         let found = run_all(&scene, &self.load.library, &self.recipe, &Unwatched)?;
         let scene = Arc::new(scene);
-        let mut outcome = Outcome::accepted_if(self.recipe.is_met(&found));
+        // Go on after an error: the next report may fit on the disk, or the stick may be back.
+        let mut errors = Vec::new();
         for (number, inspection) in (1..).zip(&found) {
             let of_part = (found.len() > 1).then(|| file_of_part(path, number));
-            // Go on: the next report may fit on the disk, or the stick may be back.
-            for error in self.report_part(&scene, inspection, (path, of_part), console) {
-                console.advise(&format_args!("error: {error}"), &error.advice());
-                outcome = Outcome::CouldNotRun;
+            errors.extend(self.report_part(&scene, inspection, (path, of_part), console));
+        }
+        if self.args.format.contains(&Format::Problem) {
+            match self.write_problem(path, &scene, &found) {
+                Ok(written) => console.line(&format_args!("{name}: {}", written.display())),
+                Err(error) => errors.push(error),
             }
         }
-        Ok(outcome)
+        for error in &errors {
+            console.advise(&format_args!("error: {error}"), &error.advice());
+        }
+        Ok(if errors.is_empty() {
+            Outcome::accepted_if(self.recipe.is_met(&found))
+        } else {
+            Outcome::CouldNotRun
+        })
     }
 
     /// Reports one part of the scene of a file; `of_part` names its report if there are several. Returns what could not be
@@ -238,16 +252,8 @@ impl Reporter<'_> {
         (path, of_part): (&Path, Option<PathBuf>),
         console: &mut Console,
     ) -> Vec<ReportError> {
-        let is_simulated = self.args.simulated || scene.cloud.is_simulated;
-        let report = self.report_of(&Inspected {
-            subject: &Subject::of_file(path, is_simulated),
-            scene,
-            inspection,
-            recipe: &self.recipe,
-            robot: self.robot.as_ref(),
-            is_forced: self.args.force,
-            on_line: None,
-        });
+        let subject = self.subject(path, scene);
+        let report = self.report_of(&self.inspected(&subject, scene, inspection));
         let of_part = of_part.as_deref().unwrap_or(path);
         let WrittenPose {
             pages,
@@ -277,6 +283,58 @@ impl Reporter<'_> {
             files.join(", ")
         ));
         errors
+    }
+
+    fn subject(&self, path: &Path, scene: &SceneCloud) -> Subject {
+        Subject::of_file(path, self.args.simulated || scene.cloud.is_simulated)
+    }
+
+    fn inspected<'a>(
+        &'a self,
+        subject: &'a Subject,
+        scene: &'a Arc<SceneCloud>,
+        inspection: &'a Inspection,
+    ) -> Inspected<'a> {
+        Inspected {
+            subject,
+            scene,
+            inspection,
+            recipe: &self.recipe,
+            robot: self.robot.as_ref(),
+            is_forced: self.args.force,
+            on_line: None,
+        }
+    }
+
+    /// Writes the problem report of a scene, and returns its path.
+    fn write_problem(
+        &mut self,
+        path: &Path,
+        scene: &Arc<SceneCloud>,
+        found: &[Inspection],
+    ) -> Result<PathBuf, ReportError> {
+        let subject = self.subject(path, scene);
+        let line = {
+            let parts = found.iter();
+            let parts = parts.map(|inspection| self.inspected(&subject, scene, inspection));
+            let parts: Vec<Inspected<'_>> = parts.collect();
+            Inspected::line_of_all(&parts, &Traceability::default())
+        };
+        let entries = found.iter();
+        let entries = entries.flat_map(|found| compared_entries(found, &self.load.parts));
+        let entries: BTreeSet<PartName> = entries.collect();
+        let entries: Vec<PartName> = entries.into_iter().collect();
+        let library = open_library(self.args.library.library.as_deref());
+        let report = ProblemReport {
+            scene: Some(&**scene),
+            line: Some(&line),
+            recipe: &self.recipe,
+            library: library.as_ref().ok(),
+            entries: &entries,
+            system: &[],
+            texts: &[],
+        };
+        self.folder.write_problem(path, &report)
     }
 
     fn report_of(&self, inspected: &Inspected<'_>) -> PoseReport {

@@ -50,6 +50,36 @@ fn page_text(path: &Path) -> Option<String> {
 }
 
 #[test]
+fn whoever_unpacks_a_problem_report_sees_the_same() {
+    let place = Workplace::new();
+    capture(&place, "fender", "left", "fender.pcd");
+    let report = ["report", "fender.pcd", "--out", "out", "--format"];
+    place.accepted(&[&report[..], &["problem", "--set", "accept.min_score=0.55"]].concat());
+    let archive = fs::read(place.path("out/fender.problem.zip")).expect("written");
+    for (name, content) in files::read_zip(&archive) {
+        let path = place.path("unpacked").join(name);
+        fs::create_dir_all(path.parent().expect("a folder")).expect("made");
+        fs::write(path, content).expect("written");
+    }
+    let read_me = place.read("unpacked/read-me.txt");
+    let mut commands = read_me
+        .lines()
+        .filter_map(|line| line.trim().strip_prefix("partsight "));
+    let command: Vec<&str> = commands.next().expect("a command").split(' ').collect();
+    let mut command = place.command(&[&command[..], &["--json"]].concat());
+    let again = command.current_dir(place.path("unpacked")).output();
+    let again: Ran = again.expect("starts").into();
+    assert_eq!(again.code, 0, "{}", again.err);
+    let again: serde_json::Value = serde_json::from_str(&again.out).expect("JSON");
+    let before = place.json("unpacked/inspection.json");
+    for key in ["part", "accepted"] {
+        assert_eq!(again[key], before[key], "{key}");
+    }
+    assert_eq!(again["recipe"]["identity"], before["recipe"]["identity"]);
+    assert_eq!(again["part"], "fender");
+}
+
+#[test]
 fn each_of_several_parts_has_a_report() {
     let place = Workplace::new();
     let rack = ["simulate", "--rack", "3", "--rack-kind", "apart"];

@@ -56,7 +56,7 @@ fn a_simulated_robot_is_brought_to_its_target_and_the_lines_say_how() {
     let shown = place.accepted(&["history", "run", "1"]).out;
     assert!(shown.contains("standard position"), "{shown}");
     let table = place.accepted(&["history", "runs", "--csv", "runs.csv"]);
-    assert!(table.out.contains("Wrote 1 runs"), "{}", table.out);
+    assert!(table.out.contains("Wrote 1 run to"), "{}", table.out);
     let unknown = place.coded(2, &["history", "run", "7"]).err;
     assert!(unknown.contains("partsight history runs"), "{unknown}");
     let tried = place.accepted(&[

@@ -38,18 +38,33 @@ align-at-work = Läuft…
 align-not-run = Nicht gelaufen
 align-figures = E { $e } m² · rms { $rms } auf { $overlap } % · { $time } ms
 align-no-pose-figures = Keine Pose · { $time } ms
-align-end = Ende, nach { $count } Iterationen
+align-end = { $count ->
+        [one] Ende, nach { $count } Iteration
+       *[other] Ende, nach { $count } Iterationen
+    }
 align-iteration-e = Iteration { $iteration } von { $last } · E { $e } m²
 align-aligning-now = Wird ausgerichtet…
 align-nothing-aligned = Noch nichts ausgerichtet
 align-nothing-aligned-advice = Oben ein Teil und einen Start wählen, dann „Starten“ drücken
-align-ended-below-threshold = Schwelle erreicht: E < 1e-6 m², { $count } Iterationen
+align-ended-below-threshold = { $count ->
+        [one] Schwelle erreicht: E < 1e-6 m², { $count } Iteration
+       *[other] Schwelle erreicht: E < 1e-6 m², { $count } Iterationen
+    }
 align-ended-below-threshold-says = Algorithmus 3 endet, sobald E (Gl. 12) unter 1e-6 m² liegt
-align-ended-elsewhere = Nach { $count } Iterationen an anderer Stelle konvergiert
+align-ended-elsewhere = { $count ->
+        [one] Nach { $count } Iteration an anderer Stelle konvergiert
+       *[other] Nach { $count } Iterationen an anderer Stelle konvergiert
+    }
 align-ended-elsewhere-says = Der letzte Schritt lag unter der Grenze, aber mehr als 5° neben der wahren Lage: ein lokales Minimum von E
-align-ended-converged = Nach { $count } Iterationen konvergiert
+align-ended-converged = { $count ->
+        [one] Nach { $count } Iteration konvergiert
+       *[other] Nach { $count } Iterationen konvergiert
+    }
 align-ended-converged-says = Der letzte Schritt lag unter der Grenze: Die Lage ändert sich nicht mehr
-align-ended-above-threshold = Schwelle nicht erreicht: beste von { $count } Iterationen
+align-ended-above-threshold = { $count ->
+        [one] Schwelle nicht erreicht: beste von { $count } Iteration
+       *[other] Schwelle nicht erreicht: beste von { $count } Iterationen
+    }
 align-ended-above-threshold-says = Algorithmus 3 endet, sobald E unter 1e-6 m² liegt. E blieb darüber, und die letzten Runden fanden keine bessere Lage: Dies ist die beste. Schon das Rauschen einer Kamera hält E über der Schwelle, wie gut die Lage auch ist
 align-ended-limit = Höchstzahl der Iterationen: { $count }
 align-ended-limit-says = Im letzten Schritt änderte sich die Lage noch
@@ -80,7 +95,10 @@ align-again = Erneut starten
 align-table-again = Tabelle I erneut starten
 align-rows-done-left = { $done } von { $total } fertig · noch etwa { $time }
 align-rows-done = { $done } von { $total } fertig
-align-rows = { $total } Zeilen
+align-rows = { $total ->
+        [one] { $total } Zeile
+       *[other] { $total } Zeilen
+    }
 align-rows-stopped = Bei { $done } von { $total } gestoppt
 align-rows-all = Alle { $total } fertig
 align-column-part = Teil, Start

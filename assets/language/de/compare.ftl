@@ -116,7 +116,10 @@ compare-num-worse =
     }
 compare-num-better = { $count } besser
 compare-num-rescored = { $count } mit anderem Score
-compare-num-common = { $count } Fälle in beiden
+compare-num-common = { $count ->
+        [one] { $count } Fall in beiden
+       *[other] { $count } Fälle in beiden
+    }
 compare-num-new = { $count } neu
 compare-num-gone = { $count } fehlend oder beschädigt
 compare-against-file = gegenüber { $file }
@@ -187,9 +190,18 @@ compare-plot-refused = abgewiesene Teile
 compare-scaling-says = Ordnet 8 bis 2048 simulierte Referenzen nach Ähnlichkeit zu einer Szene, mit 1, 2, 4 und 8 Threads; dauert einige Sekunden
 compare-measure = Messen
 compare-measure-label = Skalierung messen
-compare-scaling-cores = { $cores } Kerne
-compare-scaling-cores-shared = { $cores } Kerne; ab { $workers } Threads werden sie geteilt
-compare-scaling-from = { $cores }: mehrere lohnen sich ab { $count } Referenzen
+compare-scaling-cores = { $cores ->
+        [one] { $cores } Kern
+       *[other] { $cores } Kerne
+    }
+compare-scaling-cores-shared = { $cores ->
+        [one] { $cores } Kern; ab { $workers } Threads wird er geteilt
+       *[other] { $cores } Kerne; ab { $workers } Threads werden sie geteilt
+    }
+compare-scaling-from = { $count ->
+        [one] { $cores }: mehrere lohnen sich ab { $count } Referenz
+       *[other] { $cores }: mehrere lohnen sich ab { $count } Referenzen
+    }
 compare-scaling-never = { $cores }: mehrere lohnten sich nie
 compare-scaling-plot = Dauer der Rangliste über der Zahl der Referenzen; { $words }
 compare-one-worker = 1 Thread

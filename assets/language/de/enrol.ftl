@@ -106,10 +106,10 @@ enrol-num-parts =
 enrol-damaged = Beschädigt
 enrol-tile-reference = Ref. von { $part }
 enrol-enrolled = Eingelernt: { $part }
-enrol-just-renamed = Soeben umbenannt
-enrol-just-brought-back = Wiederhergestellt
-enrol-just-saved = Soeben gespeichert
-enrol-path-changed = Bahn geändert
+enrol-renamed-at = Umbenannt, { $time }
+enrol-brought-back-at = Wieder da, { $time }
+enrol-saved-at = Gespeichert, { $time }
+enrol-path-changed-at = Neue Bahn, { $time }
 
 ## What corrects the draft
 enrol-in-front = Vor dem Hintergrund

@@ -15,7 +15,10 @@ history-row =
 
 ## The bar above the list
 history-show-all = Alle zeigen
-history-counted = { $matching } von { $count } Einträgen
+history-counted = { $count ->
+        [one] { $matching } von { $count } Eintrag
+       *[other] { $matching } von { $count } Einträgen
+    }
 history-export-csv-hint = Die angezeigten Prüfungen in eine Tabelle schreiben
 history-export-cases = Fälle exportieren…
 history-export-cases-hint = Die angezeigten Prüfungen, zu denen es ein Bild und ein tatsächliches Teil gibt, als Fälle für „Vergleich“ und partsight evaluate speichern
@@ -118,8 +121,14 @@ history-ok-share = IO, %
 history-shift = Schicht vom { $start }: { $ok } IO, { $nok } NIO
 history-by-shift = Teile nach Schicht
 history-not-ok-on-top = NIO, oben
-history-total = { $count } Teile, { $share } IO
-history-total-of-shifts = { $shifts } Schichten: { $count } Teile, { $share } IO
+history-total = { $count ->
+        [one] { $count } Teil, { $share } IO
+       *[other] { $count } Teile, { $share } IO
+    }
+history-total-of-shifts = { $count ->
+        [one] { $shifts } Schichten: { $count } Teil, { $share } IO
+       *[other] { $shifts } Schichten: { $count } Teile, { $share } IO
+    }
 history-others-left-out =
     { $count ->
         [one] 1 Teil anderer Quellen ist nicht mitgezählt
@@ -169,7 +178,10 @@ history-wrote-cases = { $path }: { $what }
 history-cases-kept = Fälle: { $new } neu, { $updated } aktualisiert, { $unchanged } unverändert
 history-cases-without-truth = { $count } ohne tatsächliches Teil
 history-cases-without-frame = { $count } ohne aufbewahrtes Bild
-history-cases-scans = { $count }, die Scans sind
+history-cases-scans = { $count ->
+        [one] { $count }, der ein Scan ist
+       *[other] { $count }, die Scans sind
+    }
 history-cases-unreadable = { $count } mit unlesbarem Bild
 history-crowded = Der Verlauf kommt nicht nach: Die Bilder einiger Prüfungen wurden nicht gespeichert
 history-crowded-advice = Weniger Bilder aufbewahren („Bilder…“ im Verlauf) oder einen schnelleren Datenträger verwenden

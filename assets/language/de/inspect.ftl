@@ -63,7 +63,10 @@ inspect-pose-uncertainty = Pose-Unsicherheit (95 %)
 inspect-runner-up = zweitbeste Pose
 inspect-times-worse = { $ratio }× schlechter
 inspect-as-good = gleich gut
-inspect-iterations = { $num } Iterationen
+inspect-iterations = { $num ->
+        [one] { $num } Iteration
+       *[other] { $num } Iterationen
+    }
 inspect-ambiguous = Eine andere Pose passt ebenso gut: prüfen, wie herum das Teil hängt
 inspect-inspection = Prüfung
 inspect-time = Zeit
@@ -205,3 +208,12 @@ inspect-path-not-written = Keine Lackierbahn geschrieben: { $why }
 inspect-report-written = { $files }, die Bilder der Stufen und eine Zeile von { $table } in { $folder } geschrieben
 inspect-report-set-aside = { $files }, die Bilder der Stufen und eine Zeile von { $table } in { $folder } geschrieben; die letzte Zeile war unvollständig und liegt jetzt in { $aside }
 inspect-watching-folder = Ordner wird überwacht
+
+## The values under the pointer
+
+inspect-at-reading = Spalte { $column }, Zeile { $row }: { $depth } von der Kamera
+inspect-at-no-reading = Spalte { $column }, Zeile { $row }: kein Messwert
+inspect-at-surface = x { $x }, y { $y }, Höhe { $height }
+inspect-at-plane = x { $x }, y { $y }
+inspect-at-ray = x { $x }, y { $y } · vom Schwerpunkt L { $length }, Θ { $angle }
+inspect-at-iteration = Iteration { $iteration }: E { $e } m²

@@ -123,9 +123,15 @@ paint-obstacles-title = Quader der Zelle öffnen
 paint-more-robot = Werkzeug, Pistole und Geschwindigkeit
 paint-tool = Werkzeug auf der Steuerung
 paint-tool-hint = Eine Nummer bei KUKA, FANUC und Yaskawa, ein Name bei ABB und Doosan
-paint-tilted = Pistole an { $num } Punkten um bis zu { $degrees }° geneigt, wo der Arm der Bahn sonst nicht folgt.
+paint-tilted = { $num ->
+        [one] Pistole an { $num } Punkt um bis zu { $degrees }° geneigt, wo der Arm der Bahn sonst nicht folgt.
+       *[other] Pistole an { $num } Punkten um bis zu { $degrees }° geneigt, wo der Arm der Bahn sonst nicht folgt.
+    }
 paint-changed-moves = Bewegungen ohne Farbe: { $slower } langsamer als geplant, { $joints } als Achsbewegung.
-paint-slower-spraying = Pistole beim Sprühen auf { $num } Bewegungen verlangsamt, damit der Arm folgen kann; die Schicht bleibt in ihrer Toleranz.
+paint-slower-spraying = { $num ->
+        [one] Pistole beim Sprühen auf { $num } Bewegung verlangsamt, damit der Arm folgen kann; die Schicht bleibt in ihrer Toleranz.
+       *[other] Pistole beim Sprühen auf { $num } Bewegungen verlangsamt, damit der Arm folgen kann; die Schicht bleibt in ihrer Toleranz.
+    }
 paint-not-calibrated = Zuerst die Zelle kalibrieren, oben unter Roboter…
 paint-checking-reach = Reichweite des Arms wird geprüft
 paint-arm-not-checked = Arm: nicht geprüft

@@ -3,8 +3,14 @@ program-files = Roboterprogramme
 program-no-nozzle = Ohne die Lage der Düse am Flansch lässt sich die Reichweite nicht prüfen
 program-no-nozzle-advice = In Lackieren unter dem Arm eintragen oder keinen Arm wählen
 program-not-written = Kein Programm geschrieben: { $why }
-program-written = { $path } geschrieben: { $count } Punkte als { $format }
-program-written-parts = { $path } und { $parts } Programme geschrieben, die es aufruft: { $count } Punkte als { $format }; die Steuerung braucht sie alle
+program-written = { $count ->
+        [one] { $path } geschrieben: { $count } Punkt als { $format }
+       *[other] { $path } geschrieben: { $count } Punkte als { $format }
+    }
+program-written-parts = { $parts ->
+        [one] { $path } und { $parts } Programm geschrieben, das es aufruft: { $count } Punkte als { $format }; die Steuerung braucht beide
+       *[other] { $path } und { $parts } Programme geschrieben, die es aufruft: { $count } Punkte als { $format }; die Steuerung braucht sie alle
+    }
 program-gun-output = Ausgang, der die Pistole öffnet
 program-gun-output-help = Nummer des digitalen Ausgangs, der die Pistole öffnet
 program-gun-radius = Radius der Pistole

@@ -32,7 +32,10 @@ robot-camera = Kamera
 robot-made = erstellt
 robot-from = Quelle
 robot-entered-by-hand = von Hand eingegeben
-robot-pairs-of = { $num } Paare aus { $file }
+robot-pairs-of = { $num ->
+        [one] { $num } Paar aus { $file }
+       *[other] { $num } Paare aus { $file }
+    }
 robot-residuals = Restfehler
 robot-residuals-are = { $mm } mm und { $degrees }° rms, max. { $worst } mm ({ $pair })
 robot-uncertainty = Unsicherheit (95 %)
@@ -116,7 +119,10 @@ robot-wall-shifted = Wand und Boden verschoben um
 robot-wall-not-found = nicht wiedergefunden
 robot-readings = Messwerte
 robot-readings-are = { $rms } rms zum Ausgangszustand, das { $ratio }-Fache seines Rauschens
-robot-checks-shown = Letzte { $shown } von { $count } Kontrollen
+robot-checks-shown = { $count ->
+        [one] Letzte { $shown } von { $count } Kontrolle
+       *[other] Letzte { $shown } von { $count } Kontrollen
+    }
 robot-shift-over-time = Verschiebung seit dem Ausgangszustand entlang x, y und z der Kamera
 robot-check-time = Zeit
 robot-check-shift = Verschiebung

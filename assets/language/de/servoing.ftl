@@ -79,7 +79,10 @@ servoing-not-calibrated-advice = Zuerst kalibrieren: Taste B, dann Kalibrierung
 ## Runs in the history
 servoing-runs = Servoläufe
 servoing-runs-hint = Läufe, in denen die Kamera einen Roboter geführt hat, statt der Prüfungen
-servoing-runs-counted = { $matching } von { $count } Läufen
+servoing-runs-counted = { $count ->
+        [one] { $matching } von { $count } Lauf
+       *[other] { $matching } von { $count } Läufen
+    }
 servoing-no-runs-listed = Kein Lauf passt zum Filter
 servoing-choose-run = Einen Lauf wählen, um seine Kurve zu sehen
 servoing-row = Lauf { $number }: { $part }, { $end }

@@ -82,7 +82,10 @@ shell-next = Weiter
 shell-same-digits = Dieselben Ziffern noch einmal eingeben
 shell-set-the-pin = PIN festlegen
 shell-pin-forgotten = Vergessen? Den Einrichter rufen
-shell-num-digits = { $num } Ziffern
+shell-num-digits = { $num ->
+        [one] { $num } Ziffer
+       *[other] { $num } Ziffern
+    }
 shell-erase = Löschen
 shell-digit = Ziffer { $digit }
 shell-locked = Gesperrt: Das Fenster wurde eine Weile nicht benutzt
@@ -213,7 +216,7 @@ shell-no-such-folder = Diesen Ordner gibt es nicht
 shell-not-a-folder = Das ist eine Datei, kein Ordner
 shell-confirm-replace = Eine Datei dieses Namens existiert: zum Ersetzen erneut bestätigen
 shell-no-parent-folder = Der Ordner dieser Datei existiert nicht
-shell-no-file-dialog = Der Desktop bietet keinen Dateidialog (Paket xdg-desktop-portal-gtk oder zenity): Pfad eingeben
+shell-no-file-dialog = Der Desktop bietet keinen Dateidialog (Paket xdg-desktop-portal-gtk oder zenity): Pfad eingeben oder unten wählen
 shell-path = Pfad
 shell-ok = OK
 
@@ -256,7 +259,7 @@ shell-does-units = Millimeter und Grad oder Meter und Radiant
 shell-does-theme = Dunkel oder hell
 shell-does-role = Bediener- oder Einrichteransicht
 shell-does-quit = Fenster schließen
-shell-does-help = Diese Liste
+shell-does-help = Hilfe: Tasten, Handbuch, Problem melden
 shell-does-size = Alles größer, kleiner, wie üblich
 shell-does-escape = Vergrößerte Stufe schließen; Box oder Lasso abbrechen
 shell-keys-tab = Tab, Eingabe

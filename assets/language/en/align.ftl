@@ -38,18 +38,33 @@ align-at-work = At work…
 align-not-run = Not run
 align-figures = E { $e } m² · rms { $rms } on { $overlap } % · { $time } ms
 align-no-pose-figures = No pose · { $time } ms
-align-end = End, after { $count } iterations
+align-end = { $count ->
+        [one] End, after { $count } iteration
+       *[other] End, after { $count } iterations
+    }
 align-iteration-e = Iteration { $iteration } of { $last } · E { $e } m²
 align-aligning-now = Aligning…
 align-nothing-aligned = Nothing aligned yet
 align-nothing-aligned-advice = Choose a part and a start above, then press Run
-align-ended-below-threshold = Threshold reached: E < 1e-6 m², { $count } iterations
+align-ended-below-threshold = { $count ->
+        [one] Threshold reached: E < 1e-6 m², { $count } iteration
+       *[other] Threshold reached: E < 1e-6 m², { $count } iterations
+    }
 align-ended-below-threshold-says = Algorithm 3 stops once E (eq. 12) is below 1e-6 m²
-align-ended-elsewhere = Converged elsewhere after { $count } iterations
+align-ended-elsewhere = { $count ->
+        [one] Converged elsewhere after { $count } iteration
+       *[other] Converged elsewhere after { $count } iterations
+    }
 align-ended-elsewhere-says = The last step was below the limit, but more than 5° from the true pose: a local minimum of E
-align-ended-converged = Converged after { $count } iterations
+align-ended-converged = { $count ->
+        [one] Converged after { $count } iteration
+       *[other] Converged after { $count } iterations
+    }
 align-ended-converged-says = The last step was below the limit: the pose no longer changes
-align-ended-above-threshold = Threshold not reached: best of { $count } iterations
+align-ended-above-threshold = { $count ->
+        [one] Threshold not reached: best of { $count } iteration
+       *[other] Threshold not reached: best of { $count } iterations
+    }
 align-ended-above-threshold-says = Algorithm 3 stops once E is below 1e-6 m². E stayed above, and the last rounds found no better pose: this is the best one. The noise of a camera alone keeps E above the threshold, however good the pose is
 align-ended-limit = Maximum number of iterations: { $count }
 align-ended-limit-says = The pose still changed in the last step
@@ -80,7 +95,10 @@ align-again = Run again
 align-table-again = Run Table I again
 align-rows-done-left = { $done } of { $total } done · about { $time } left
 align-rows-done = { $done } of { $total } done
-align-rows = { $total } rows
+align-rows = { $total ->
+        [one] { $total } row
+       *[other] { $total } rows
+    }
 align-rows-stopped = Stopped at { $done } of { $total }
 align-rows-all = All { $total } done
 align-column-part = part, start

@@ -116,7 +116,10 @@ compare-num-worse =
     }
 compare-num-better = { $count } better
 compare-num-rescored = { $count } with another score
-compare-num-common = { $count } cases of both
+compare-num-common = { $count ->
+        [one] { $count } case of both
+       *[other] { $count } cases of both
+    }
 compare-num-new = { $count } new
 compare-num-gone = { $count } gone or damaged
 compare-against-file = against { $file }
@@ -187,9 +190,18 @@ compare-plot-refused = parts refused
 compare-scaling-says = Ranks one query over 8 to 2048 simulated references by 1, 2, 4 and 8 workers; takes a few seconds
 compare-measure = Measure
 compare-measure-label = Measure scaling
-compare-scaling-cores = { $cores } cores
-compare-scaling-cores-shared = { $cores } cores; { $workers } workers and more share them
-compare-scaling-from = { $cores }: several pay off from { $count } references on
+compare-scaling-cores = { $cores ->
+        [one] { $cores } core
+       *[other] { $cores } cores
+    }
+compare-scaling-cores-shared = { $cores ->
+        [one] { $cores } core; { $workers } workers and more share it
+       *[other] { $cores } cores; { $workers } workers and more share them
+    }
+compare-scaling-from = { $count ->
+        [one] { $cores }: several pay off from { $count } reference on
+       *[other] { $cores }: several pay off from { $count } references on
+    }
 compare-scaling-never = { $cores }: several never pay off
 compare-scaling-plot = Time of a ranking over the number of references; { $words }
 compare-one-worker = 1 worker

@@ -106,10 +106,10 @@ enrol-num-parts =
 enrol-damaged = Damaged
 enrol-tile-reference = Ref. of { $part }
 enrol-enrolled = Enrolled: { $part }
-enrol-just-renamed = Just renamed
-enrol-just-brought-back = Just brought back
-enrol-just-saved = Just saved
-enrol-path-changed = Path changed
+enrol-renamed-at = Renamed, { $time }
+enrol-brought-back-at = Restored, { $time }
+enrol-saved-at = Saved, { $time }
+enrol-path-changed-at = New path, { $time }
 
 ## What corrects the draft
 enrol-in-front = In front of background

@@ -15,7 +15,10 @@ history-row =
 
 ## The bar above the list
 history-show-all = Show all
-history-counted = { $matching } of { $count } entries
+history-counted = { $count ->
+        [one] { $matching } of { $count } entry
+       *[other] { $matching } of { $count } entries
+    }
 history-export-csv-hint = Write the listed inspections to a table
 history-export-cases = Export cases…
 history-export-cases-hint = Save the listed inspections that have a frame and an actual part as cases, for Compare and partsight evaluate
@@ -118,8 +121,14 @@ history-ok-share = OK, %
 history-shift = Shift of { $start }: { $ok } OK, { $nok } NOK
 history-by-shift = Parts by shift
 history-not-ok-on-top = NOK, on top
-history-total = { $count } parts, { $share } OK
-history-total-of-shifts = { $shifts } shifts: { $count } parts, { $share } OK
+history-total = { $count ->
+        [one] { $count } part, { $share } OK
+       *[other] { $count } parts, { $share } OK
+    }
+history-total-of-shifts = { $count ->
+        [one] { $shifts } shifts: { $count } part, { $share } OK
+       *[other] { $shifts } shifts: { $count } parts, { $share } OK
+    }
 history-others-left-out =
     { $count ->
         [one] 1 part of another source is not counted
@@ -169,7 +178,10 @@ history-wrote-cases = { $what } in { $path }
 history-cases-kept = cases: { $new } new, { $updated } updated, { $unchanged } unchanged
 history-cases-without-truth = { $count } without a true label
 history-cases-without-frame = { $count } whose frame is not kept
-history-cases-scans = { $count } that are scans
+history-cases-scans = { $count ->
+        [one] { $count } that is a scan
+       *[other] { $count } that are scans
+    }
 history-cases-unreadable = { $count } whose frame cannot be read
 history-crowded = The history cannot keep up: the frames of some inspections were not saved
 history-crowded-advice = Keep fewer frames (Frames… in History), or use a faster disk

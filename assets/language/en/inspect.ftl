@@ -63,7 +63,10 @@ inspect-pose-uncertainty = pose uncertainty (95 %)
 inspect-runner-up = runner-up pose
 inspect-times-worse = { $ratio }× worse
 inspect-as-good = as good
-inspect-iterations = { $num } iterations
+inspect-iterations = { $num ->
+        [one] { $num } iteration
+       *[other] { $num } iterations
+    }
 inspect-ambiguous = Another pose fits as well: check which way round the part hangs
 inspect-inspection = Inspection
 inspect-time = time
@@ -205,3 +208,12 @@ inspect-path-not-written = No spray path was written: { $why }
 inspect-report-written = Wrote { $files }, the pictures of its stages and a row of { $table } to { $folder }
 inspect-report-set-aside = Wrote { $files }, the pictures of its stages and a row of { $table } to { $folder }; its last row was incomplete and was set aside in { $aside }
 inspect-watching-folder = Watching a folder
+
+## The values under the pointer
+
+inspect-at-reading = Column { $column }, row { $row }: { $depth } from the camera
+inspect-at-no-reading = Column { $column }, row { $row }: no reading
+inspect-at-surface = x { $x }, y { $y }, height { $height }
+inspect-at-plane = x { $x }, y { $y }
+inspect-at-ray = x { $x }, y { $y } · from the centroid L { $length }, Θ { $angle }
+inspect-at-iteration = Iteration { $iteration }: E { $e } m²

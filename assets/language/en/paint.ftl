@@ -123,9 +123,15 @@ paint-obstacles-title = Open the boxes of the cell
 paint-more-robot = Tool, gun and speed
 paint-tool = Tool on the controller
 paint-tool-hint = A number for KUKA, FANUC and Yaskawa, a name for ABB and Doosan
-paint-tilted = Gun tilted by up to { $degrees }° at { $num } points, to get past what the arm cannot follow.
+paint-tilted = { $num ->
+        [one] Gun tilted by up to { $degrees }° at { $num } point, to get past what the arm cannot follow.
+       *[other] Gun tilted by up to { $degrees }° at { $num } points, to get past what the arm cannot follow.
+    }
 paint-changed-moves = Moves with the gun off: { $slower } slower than planned, { $joints } by joints.
-paint-slower-spraying = Gun slowed on { $num } moves while it sprays, so that the arm can follow; the film stays within its tolerance.
+paint-slower-spraying = { $num ->
+        [one] Gun slowed on { $num } move while it sprays, so that the arm can follow; the film stays within its tolerance.
+       *[other] Gun slowed on { $num } moves while it sprays, so that the arm can follow; the film stays within its tolerance.
+    }
 paint-not-calibrated = Calibrate the cell first, with Robot… at the top
 paint-checking-reach = Checking the arm's reach
 paint-arm-not-checked = Arm: not checked

@@ -32,7 +32,10 @@ robot-camera = camera
 robot-made = made
 robot-from = from
 robot-entered-by-hand = entered by hand
-robot-pairs-of = { $num } pairs of { $file }
+robot-pairs-of = { $num ->
+        [one] { $num } pair of { $file }
+       *[other] { $num } pairs of { $file }
+    }
 robot-residuals = residuals
 robot-residuals-are = { $mm } mm and { $degrees }° rms, worst { $worst } mm ({ $pair })
 robot-uncertainty = uncertainty (95 %)
@@ -116,7 +119,10 @@ robot-wall-shifted = wall and floor moved by
 robot-wall-not-found = neither was found again
 robot-readings = readings
 robot-readings-are = { $rms } rms against the baseline, { $ratio } times its noise
-robot-checks-shown = Last { $shown } of { $count } checks
+robot-checks-shown = { $count ->
+        [one] Last { $shown } of { $count } check
+       *[other] Last { $shown } of { $count } checks
+    }
 robot-shift-over-time = Shift since the baseline, along x, y and z of the camera
 robot-check-time = time
 robot-check-shift = shift

@@ -79,7 +79,10 @@ servoing-not-calibrated-advice = Calibrate it first: press B, then Calibration
 ## Runs in the history
 servoing-runs = Servo runs
 servoing-runs-hint = Runs of visual servoing in place of the inspections
-servoing-runs-counted = { $matching } of { $count } runs
+servoing-runs-counted = { $count ->
+        [one] { $matching } of { $count } run
+       *[other] { $matching } of { $count } runs
+    }
 servoing-no-runs-listed = No run matches the filter
 servoing-choose-run = Choose a run to see its curve
 servoing-row = Run { $number }: { $part }, { $end }

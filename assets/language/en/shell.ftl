@@ -82,7 +82,10 @@ shell-next = Next
 shell-same-digits = Enter the same digits again
 shell-set-the-pin = Set the PIN
 shell-pin-forgotten = Forgotten? Ask the engineer
-shell-num-digits = { $num } digits
+shell-num-digits = { $num ->
+        [one] { $num } digit
+       *[other] { $num } digits
+    }
 shell-erase = Erase
 shell-digit = Digit { $digit }
 shell-locked = Locked: the window was not used for a while
@@ -213,7 +216,7 @@ shell-no-such-folder = There is no such folder
 shell-not-a-folder = This is a file, not a folder
 shell-confirm-replace = A file of this name exists: confirm again to replace it
 shell-no-parent-folder = The folder of this file does not exist
-shell-no-file-dialog = The desktop offers no file dialog (package xdg-desktop-portal-gtk or zenity): type the path
+shell-no-file-dialog = The desktop offers no file dialog (package xdg-desktop-portal-gtk or zenity): type the path, or choose it below
 shell-path = Path
 shell-ok = OK
 
@@ -256,7 +259,7 @@ shell-does-units = Millimetres and degrees, or metres and radians
 shell-does-theme = Dark or light
 shell-does-role = Operator's or engineer's view
 shell-does-quit = Close the window
-shell-does-help = This list
+shell-does-help = Help: keys, guide, report a problem
 shell-does-size = Everything larger, smaller, as usual
 shell-does-escape = Close the enlarged stage; give up a box or lasso
 shell-keys-tab = Tab, Enter

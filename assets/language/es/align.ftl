@@ -38,18 +38,33 @@ align-at-work = En curso…
 align-not-run = Sin ejecutar
 align-figures = E { $e } m² · rms { $rms } en el { $overlap } % · { $time } ms
 align-no-pose-figures = Sin pose · { $time } ms
-align-end = Final, tras { $count } iteraciones
+align-end = { $count ->
+        [one] Final, tras { $count } iteración
+       *[other] Final, tras { $count } iteraciones
+    }
 align-iteration-e = Iteración { $iteration } de { $last } · E { $e } m²
 align-aligning-now = Alineando…
 align-nothing-aligned = Todavía no se ha alineado nada
 align-nothing-aligned-advice = Elegir arriba una pieza y un inicio, y pulsar Ejecutar
-align-ended-below-threshold = Umbral alcanzado: E < 1e-6 m², { $count } iteraciones
+align-ended-below-threshold = { $count ->
+        [one] Umbral alcanzado: E < 1e-6 m², { $count } iteración
+       *[other] Umbral alcanzado: E < 1e-6 m², { $count } iteraciones
+    }
 align-ended-below-threshold-says = El algoritmo 3 termina en cuanto E (ec. 12) es menor que 1e-6 m²
-align-ended-elsewhere = Convergió en otro lugar tras { $count } iteraciones
+align-ended-elsewhere = { $count ->
+        [one] Convergió en otro lugar tras { $count } iteración
+       *[other] Convergió en otro lugar tras { $count } iteraciones
+    }
 align-ended-elsewhere-says = El último paso fue menor que el límite, pero a más de 5° de la pose verdadera: un mínimo local de E
-align-ended-converged = Convergió tras { $count } iteraciones
+align-ended-converged = { $count ->
+        [one] Convergió tras { $count } iteración
+       *[other] Convergió tras { $count } iteraciones
+    }
 align-ended-converged-says = El último paso fue menor que el límite: la pose ya no cambia
-align-ended-above-threshold = Umbral no alcanzado: la mejor de { $count } iteraciones
+align-ended-above-threshold = { $count ->
+        [one] Umbral no alcanzado: la mejor de { $count } iteración
+       *[other] Umbral no alcanzado: la mejor de { $count } iteraciones
+    }
 align-ended-above-threshold-says = El algoritmo 3 termina en cuanto E es menor que 1e-6 m². E quedó por encima y las últimas rondas no hallaron una pose mejor: esta es la mejor. Ya el ruido de una cámara mantiene E por encima del umbral, por buena que sea la pose
 align-ended-limit = Número máximo de iteraciones: { $count }
 align-ended-limit-says = La pose aún cambió en el último paso
@@ -80,7 +95,10 @@ align-again = Repetir
 align-table-again = Volver a calcular la tabla I
 align-rows-done-left = { $done } de { $total } · quedan unos { $time }
 align-rows-done = { $done } de { $total } hechas
-align-rows = { $total } filas
+align-rows = { $total ->
+        [one] { $total } fila
+       *[other] { $total } filas
+    }
 align-rows-stopped = Detenida en { $done } de { $total }
 align-rows-all = Las { $total } hechas
 align-column-part = pieza, inicio

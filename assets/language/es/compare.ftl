@@ -216,9 +216,18 @@ compare-plot-refused = piezas rechazadas
 compare-scaling-says = Clasifica entre 8 y 2048 referencias simuladas para una escena con 1, 2, 4 y 8 hilos; tarda unos segundos
 compare-measure = Medir
 compare-measure-label = Medir el escalado
-compare-scaling-cores = { $cores } núcleos
-compare-scaling-cores-shared = { $cores } núcleos; a partir de { $workers } hilos se comparten
-compare-scaling-from = { $cores }: varios compensan a partir de { $count } referencias
+compare-scaling-cores = { $cores ->
+        [one] { $cores } núcleo
+       *[other] { $cores } núcleos
+    }
+compare-scaling-cores-shared = { $cores ->
+        [one] { $cores } núcleo; a partir de { $workers } hilos se comparte
+       *[other] { $cores } núcleos; a partir de { $workers } hilos se comparten
+    }
+compare-scaling-from = { $count ->
+        [one] { $cores }: varios compensan a partir de { $count } referencia
+       *[other] { $cores }: varios compensan a partir de { $count } referencias
+    }
 compare-scaling-never = { $cores }: varios nunca compensaron
 compare-scaling-plot = Tiempo de la clasificación según el número de referencias; { $words }
 compare-one-worker = 1 hilo

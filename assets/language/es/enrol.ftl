@@ -106,10 +106,10 @@ enrol-num-parts =
 enrol-damaged = Dañada
 enrol-tile-reference = Ref. de { $part }
 enrol-enrolled = Registrada: { $part }
-enrol-just-renamed = Recién renombrada
-enrol-just-brought-back = Recién recuperada
-enrol-just-saved = Recién guardada
-enrol-path-changed = Trayectoria nueva
+enrol-renamed-at = Renombrada, { $time }
+enrol-brought-back-at = Recuperada, { $time }
+enrol-saved-at = Guardada, { $time }
+enrol-path-changed-at = Trayectoria, { $time }
 
 ## What corrects the draft
 enrol-in-front = Delante del fondo

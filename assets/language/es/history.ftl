@@ -15,7 +15,10 @@ history-row =
 
 ## The bar above the list
 history-show-all = Mostrar todo
-history-counted = { $matching } de { $count } entradas
+history-counted = { $count ->
+        [one] { $matching } de { $count } entrada
+       *[other] { $matching } de { $count } entradas
+    }
 history-export-csv-hint = Escribir en una tabla las inspecciones mostradas
 history-export-cases = Exportar casos…
 history-export-cases-hint = Guardar como casos, para Comparar y partsight evaluate, las inspecciones mostradas que tienen imagen y pieza real
@@ -118,8 +121,14 @@ history-ok-share = OK, %
 history-shift = Turno del { $start }: { $ok } OK, { $nok } NOK
 history-by-shift = Piezas por turno
 history-not-ok-on-top = NOK, encima
-history-total = { $count } piezas, { $share } OK
-history-total-of-shifts = { $shifts } turnos: { $count } piezas, { $share } OK
+history-total = { $count ->
+        [one] { $count } pieza, { $share } OK
+       *[other] { $count } piezas, { $share } OK
+    }
+history-total-of-shifts = { $count ->
+        [one] { $shifts } turnos: { $count } pieza, { $share } OK
+       *[other] { $shifts } turnos: { $count } piezas, { $share } OK
+    }
 history-others-left-out =
     { $count ->
         [one] 1 pieza de otra fuente no cuenta
@@ -169,7 +178,10 @@ history-wrote-cases = { $path }: { $what }
 history-cases-kept = casos: { $new } nuevos, { $updated } actualizados, { $unchanged } sin cambios
 history-cases-without-truth = { $count } sin pieza real
 history-cases-without-frame = { $count } sin imagen conservada
-history-cases-scans = { $count } que son escaneos
+history-cases-scans = { $count ->
+        [one] { $count } que es un escaneo
+       *[other] { $count } que son escaneos
+    }
 history-cases-unreadable = { $count } cuya imagen no se puede leer
 history-crowded = El historial no puede seguir el ritmo: no se guardaron las imágenes de algunas inspecciones
 history-crowded-advice = Conservar menos imágenes (Imágenes… en Historial) o usar un disco más rápido

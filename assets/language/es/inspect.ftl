@@ -63,7 +63,10 @@ inspect-pose-uncertainty = incertidumbre de pose (95 %)
 inspect-runner-up = segunda mejor pose
 inspect-times-worse = { $ratio }× peor
 inspect-as-good = igual de buena
-inspect-iterations = { $num } iteraciones
+inspect-iterations = { $num ->
+        [one] { $num } iteración
+       *[other] { $num } iteraciones
+    }
 inspect-ambiguous = Otra pose encaja igual de bien: comprobar en qué sentido cuelga la pieza
 inspect-inspection = Inspección
 inspect-time = tiempo
@@ -205,3 +208,12 @@ inspect-path-not-written = No se escribió ninguna trayectoria: { $why }
 inspect-report-written = Escritos { $files }, las imágenes de sus etapas y una fila de { $table } en { $folder }
 inspect-report-set-aside = Escritos { $files }, las imágenes de sus etapas y una fila de { $table } en { $folder }; su última fila estaba incompleta y se apartó en { $aside }
 inspect-watching-folder = Vigilando una carpeta
+
+## The values under the pointer
+
+inspect-at-reading = Columna { $column }, fila { $row }: a { $depth } de la cámara
+inspect-at-no-reading = Columna { $column }, fila { $row }: sin lectura
+inspect-at-surface = x { $x }, y { $y }, altura { $height }
+inspect-at-plane = x { $x }, y { $y }
+inspect-at-ray = x { $x }, y { $y } · desde el centroide L { $length }, Θ { $angle }
+inspect-at-iteration = Iteración { $iteration }: E { $e } m²

@@ -123,9 +123,15 @@ paint-obstacles-title = Abrir las cajas de la celda
 paint-more-robot = Herramienta, pistola y velocidad
 paint-tool = Herramienta en el controlador
 paint-tool-hint = Un número en KUKA, FANUC y Yaskawa, un nombre en ABB y Doosan
-paint-tilted = Pistola inclinada hasta { $degrees }° en { $num } puntos donde el brazo no seguiría la trayectoria.
+paint-tilted = { $num ->
+        [one] Pistola inclinada hasta { $degrees }° en { $num } punto donde el brazo no seguiría la trayectoria.
+       *[other] Pistola inclinada hasta { $degrees }° en { $num } puntos donde el brazo no seguiría la trayectoria.
+    }
 paint-changed-moves = Movimientos sin pintar: { $slower } más lentos de lo previsto, { $joints } por ejes.
-paint-slower-spraying = Pistola más lenta en { $num } movimientos mientras pinta, para que el brazo pueda seguir la trayectoria; la película sigue dentro de su tolerancia.
+paint-slower-spraying = { $num ->
+        [one] Pistola más lenta en { $num } movimiento mientras pinta, para que el brazo pueda seguir la trayectoria; la película sigue dentro de su tolerancia.
+       *[other] Pistola más lenta en { $num } movimientos mientras pinta, para que el brazo pueda seguir la trayectoria; la película sigue dentro de su tolerancia.
+    }
 paint-not-calibrated = Primero calibre la celda, arriba en Robot…
 paint-checking-reach = Comprobando el alcance del brazo
 paint-arm-not-checked = Brazo: sin comprobar

@@ -3,8 +3,14 @@ program-files = Programas de robot
 program-no-nozzle = Sin el lugar de la boquilla en la brida no se puede comprobar el alcance
 program-no-nozzle-advice = Escríbalo en Pintar, debajo del brazo, o no elija brazo
 program-not-written = No se escribió ningún programa: { $why }
-program-written = Escrito { $path }: { $count } puntos en { $format }
-program-written-parts = Escritos { $path } y { $parts } programas que llama: { $count } puntos en { $format }; el controlador los necesita todos
+program-written = { $count ->
+        [one] Escrito { $path }: { $count } punto en { $format }
+       *[other] Escrito { $path }: { $count } puntos en { $format }
+    }
+program-written-parts = { $parts ->
+        [one] Escritos { $path } y { $parts } programa que llama: { $count } puntos en { $format }; el controlador necesita ambos
+       *[other] Escritos { $path } y { $parts } programas que llama: { $count } puntos en { $format }; el controlador los necesita todos
+    }
 program-gun-output = Salida que abre la pistola
 program-gun-output-help = Número de la salida digital que abre la pistola
 program-gun-radius = Radio de la pistola

@@ -32,7 +32,10 @@ robot-camera = cámara
 robot-made = creada
 robot-from = origen
 robot-entered-by-hand = introducida a mano
-robot-pairs-of = { $num } pares de { $file }
+robot-pairs-of = { $num ->
+        [one] { $num } par de { $file }
+       *[other] { $num } pares de { $file }
+    }
 robot-residuals = residuos
 robot-residuals-are = { $mm } mm y { $degrees }° rms, peor { $worst } mm ({ $pair })
 robot-uncertainty = incertidumbre (95 %)
@@ -116,7 +119,10 @@ robot-wall-shifted = pared y suelo se movieron
 robot-wall-not-found = no se encontraron de nuevo
 robot-readings = lecturas
 robot-readings-are = { $rms } rms respecto al estado inicial, { $ratio } veces su ruido
-robot-checks-shown = Últimas { $shown } de { $count } comprobaciones
+robot-checks-shown = { $count ->
+        [one] Últimas { $shown } de { $count } comprobación
+       *[other] Últimas { $shown } de { $count } comprobaciones
+    }
 robot-shift-over-time = Desplazamiento desde el estado inicial en x, y, z de la cámara
 robot-check-time = hora
 robot-check-shift = desplazamiento

@@ -79,7 +79,10 @@ servoing-not-calibrated-advice = Calíbrela primero: pulse B y después Calibrac
 ## Runs in the history
 servoing-runs = Recorridos
 servoing-runs-hint = Recorridos en los que la cámara guió un robot, en lugar de las inspecciones
-servoing-runs-counted = { $matching } de { $count } recorridos
+servoing-runs-counted = { $count ->
+        [one] { $matching } de { $count } recorrido
+       *[other] { $matching } de { $count } recorridos
+    }
 servoing-no-runs-listed = Ningún recorrido coincide con el filtro
 servoing-choose-run = Elija un recorrido para ver su curva
 servoing-row = Recorrido { $number }: { $part }, { $end }

@@ -82,7 +82,10 @@ shell-next = Siguiente
 shell-same-digits = Introducir de nuevo las mismas cifras
 shell-set-the-pin = Definir el PIN
 shell-pin-forgotten = ¿Olvidado? Avisar al técnico
-shell-num-digits = { $num } cifras
+shell-num-digits = { $num ->
+        [one] { $num } cifra
+       *[other] { $num } cifras
+    }
 shell-erase = Borrar
 shell-digit = Cifra { $digit }
 shell-locked = Bloqueada: la ventana no se ha usado durante un rato
@@ -213,7 +216,7 @@ shell-no-such-folder = No existe esa carpeta
 shell-not-a-folder = Es un archivo, no una carpeta
 shell-confirm-replace = Ya existe un archivo con ese nombre: confirmar otra vez para reemplazarlo
 shell-no-parent-folder = La carpeta de este archivo no existe
-shell-no-file-dialog = El escritorio no ofrece diálogo de archivos (paquete xdg-desktop-portal-gtk o zenity): escribir la ruta
+shell-no-file-dialog = El escritorio no ofrece diálogo de archivos (paquete xdg-desktop-portal-gtk o zenity): escribir la ruta o elegirla abajo
 shell-path = Ruta
 shell-ok = Aceptar
 
@@ -256,7 +259,7 @@ shell-does-units = Milímetros y grados, o metros y radianes
 shell-does-theme = Oscuro o claro
 shell-does-role = Vista del operador o del técnico
 shell-does-quit = Cerrar la ventana
-shell-does-help = Esta lista
+shell-does-help = Ayuda: teclas, guía, informar de un problema
 shell-does-size = Todo más grande, más pequeño, normal
 shell-does-escape = Cerrar la etapa ampliada; abandonar el recuadro o lazo
 shell-keys-tab = Tab, Intro

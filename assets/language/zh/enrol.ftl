@@ -104,10 +104,10 @@ enrol-num-parts =
 enrol-damaged = 已损坏
 enrol-tile-reference = 参考：{ $part }
 enrol-enrolled = 已注册：{ $part }
-enrol-just-renamed = 刚刚重命名
-enrol-just-brought-back = 刚刚恢复
-enrol-just-saved = 刚刚保存
-enrol-path-changed = 轨迹已更改
+enrol-renamed-at = { $time } 重命名
+enrol-brought-back-at = { $time } 恢复
+enrol-saved-at = { $time } 保存
+enrol-path-changed-at = { $time } 更改轨迹
 
 ## What corrects the draft
 enrol-in-front = 背景前方

@@ -201,3 +201,12 @@ inspect-path-not-written = 未写出喷涂轨迹：{ $why }
 inspect-report-written = 已将 { $files }、各步骤图片和 { $table } 中的一行写入 { $folder }
 inspect-report-set-aside = 已将 { $files }、各步骤图片和 { $table } 中的一行写入 { $folder }；其最后一行不完整，已移至 { $aside }
 inspect-watching-folder = 正在监视文件夹
+
+## The values under the pointer
+
+inspect-at-reading = 第 { $column } 列，第 { $row } 行：距相机 { $depth }
+inspect-at-no-reading = 第 { $column } 列，第 { $row } 行：无读数
+inspect-at-surface = x { $x }，y { $y }，高度 { $height }
+inspect-at-plane = x { $x }，y { $y }
+inspect-at-ray = x { $x }，y { $y } · 距质心 L { $length }，Θ { $angle }
+inspect-at-iteration = 第 { $iteration } 次迭代：E { $e } m²

@@ -197,7 +197,7 @@ shell-no-such-folder = 文件夹不存在
 shell-not-a-folder = 这是文件，不是文件夹
 shell-confirm-replace = 已有同名文件：再次确认以替换
 shell-no-parent-folder = 该文件所在的文件夹不存在
-shell-no-file-dialog = 桌面环境不提供文件对话框（软件包 xdg-desktop-portal-gtk 或 zenity）：请输入路径
+shell-no-file-dialog = 桌面环境不提供文件对话框（软件包 xdg-desktop-portal-gtk 或 zenity）：请输入路径，或在下方选择
 shell-path = 路径
 shell-ok = 确定
 
@@ -237,7 +237,7 @@ shell-does-units = 毫米和度，或米和弧度
 shell-does-theme = 深色或浅色
 shell-does-role = 操作员视图或工程师视图
 shell-does-quit = 关闭窗口
-shell-does-help = 本列表
+shell-does-help = 帮助：按键、指南、报告问题
 shell-does-size = 全部放大、缩小、恢复原大小
 shell-does-escape = 关闭放大的步骤；放弃矩形框或套索
 shell-keys-tab = Tab, Enter

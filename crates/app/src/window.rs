@@ -21,7 +21,10 @@ use super::workspaces::{
 };
 use files::{FileLock, disk, file_of};
 use inspection::pipeline::{RecipeFolder, open_recipe};
-use records::history::{HistoryBuffer, Writer};
+use records::{
+    cases::CaseFolder,
+    history::{HistoryBuffer, Writer},
+};
 use robot::{cell_check::CellCheckFolder, frame_poses::FRAME_POSES};
 use shell::{
     action::{Action, DialogRequest, Event},
@@ -29,6 +32,7 @@ use shell::{
     cell::RobotCell,
     file_dialog::{self, DialogLock, FileDialog},
     frame::{bars, keys, notices, rail, status_bar},
+    help::{self, Installation},
     inspection::{
         camera::Camera,
         inspected::Inspected,
@@ -44,7 +48,7 @@ use shell::{
         live::{self, LiveAction},
         source_menu,
     },
-    state::{Closing, State, remove_notices},
+    state::{Closing, State, notify, remove_notices},
     trace::{
         entry::{self, KeyTarget},
         expecting,
@@ -114,6 +118,7 @@ impl Window {
         options: WindowOptions,
     ) -> io::Result<Self> {
         Theme::install_fonts(ctx);
+        let installation = installation(&options);
         let WindowOptions {
             library,
             scene,
@@ -178,13 +183,13 @@ impl Window {
         let language = window.state.session.chosen_language.or(language);
         window.state.session.language = language.unwrap_or_default();
         window.state.session.language.make_current();
-        window.state.notices.extend(problem.map(Notice::from));
-        let is_second = window.data_lock.is_taken;
-        if is_second {
-            let advice = text!("shell-second-window-advice");
-            let notice = Notice::look(text!("shell-second-window"), advice);
-            let notices = &mut window.state.notices;
-            notices.push(notice.about(NoticeTopic::SecondWindow));
+        window.state.installation = Installation {
+            graphics: described_gpu(&gpu),
+            ..installation
+        };
+        let second = window.data_lock.is_taken.then(second_window);
+        for notice in problem.map(Notice::from).into_iter().chain(second) {
+            notify(&mut window.state, notice);
         }
         if let (true, Some(recipes)) = (is_first_start, recipes) {
             window.use_default_recipe(recipes);
@@ -192,21 +197,8 @@ impl Window {
         window.forget_a_vanished_file();
         window.state.session.usual_cell = cell;
         window.with_robot(ctx, RobotCell::load_remembered);
-        let session = &window.state.session;
-        // If robots were answered before, follow the source: answering them takes frames.
-        let follows = (remembered_live || session.answering.is_on) && !is_second;
         let is_opened = scene.is_some();
-        let first = match scene {
-            Some(path) => Some(Action::Open(path)),
-            None if follows && session.source.followed().is_some() => {
-                Some(Action::Live(LiveAction::Toggle))
-            }
-            // It has no frame yet.
-            None if session.source.is_watched() => None,
-            // Both windows would count the part that hangs there.
-            None if is_second && matches!(session.source, Source::Camera(_)) => None,
-            None => Some(Action::Capture),
-        };
+        let first = window.first_action(scene, remembered_live);
         window.state.inspector.loader.load();
         // The first scene is inspected even if Enrol is in front; one that the user names is shown with its result.
         let front = std::mem::take(&mut window.state.session.workspace);
@@ -221,11 +213,30 @@ impl Window {
         Ok(window)
     }
 
+    /// Opens the scene that was named, else follows the source or captures from it.
+    fn first_action(&self, scene: Option<PathBuf>, was_live: bool) -> Option<Action> {
+        let session = &self.state.session;
+        let is_second = self.data_lock.is_taken;
+        // If robots were answered before, follow the source: answering them takes frames.
+        let follows = (was_live || session.answering.is_on) && !is_second;
+        match scene {
+            Some(path) => Some(Action::Open(path)),
+            None if follows && session.source.followed().is_some() => {
+                Some(Action::Live(LiveAction::Toggle))
+            }
+            // It has no frame yet.
+            None if session.source.is_watched() => None,
+            // Both windows would count the part that hangs there.
+            None if is_second && matches!(session.source, Source::Camera(_)) => None,
+            None => Some(Action::Capture),
+        }
+    }
+
     /// Uses the user's default recipe, if no recipe is remembered.
     fn use_default_recipe(&mut self, recipes: PathBuf) {
         match open_recipe(Ok(RecipeFolder::at(recipes)), None) {
             Ok(file) => self.state.session.recipe = Arc::new(file.into()),
-            Err(error) => self.state.notices.push(UserError::of(&error).into()),
+            Err(error) => notify(&mut self.state, UserError::of(&error).into()),
         }
     }
 
@@ -352,7 +363,7 @@ impl Window {
             what: text!("shell-device-lost"),
             advice: text!("shell-device-lost-advice"),
         };
-        self.state.notices.push(lost.into());
+        notify(&mut self.state, lost.into());
     }
 
     /// Replaces a source whose file is gone by the simulated cell.
@@ -372,7 +383,7 @@ impl Window {
             };
             session.recent.retain(|known| known != path);
             session.source = Source::default();
-            self.state.notices.push(gone.into());
+            notify(&mut self.state, gone.into());
         }
     }
 
@@ -434,6 +445,7 @@ impl Window {
         let traced = entry::update(&self.state.session, ctx);
         expecting::update(&mut self.state);
         rack::update(&mut self.state);
+        help::report::update(&mut self.state);
         for event in inspected.into_iter().chain(counted).chain(traced) {
             self.tell(&event, ctx);
         }
@@ -488,6 +500,12 @@ impl Window {
                 actions.extend(notice.map(Action::Notify));
             }
         }
+        if self.services.dialogs.takes_keys() {
+            let is_key = |event: &egui::Event| {
+                matches!(event, egui::Event::Key { .. } | egui::Event::Text(_))
+            };
+            ctx.input_mut(|input| input.events.retain(|event| !is_key(event)));
+        }
         let work = self.work();
         status_bar::ui(ui, &self.state, &self.robot, &mut actions);
         if self.state.session.is_operator_view() {
@@ -516,7 +534,7 @@ impl Window {
         let of_robot = self.robot.ui(&ctx, &self.state.session);
         actions.extend(of_robot.into_iter().map(Action::Robot));
         file_dialog::ui(&ctx, &self.services.dialogs);
-        keys::help(&ctx, &self.state, &keys, &mut actions);
+        help::ui(&ctx, &self.state, &keys, &mut actions);
         notices::ui(&ctx, room, &self.state, &mut actions);
         let is_behind_dialog = self.is_behind_dialog(&ctx);
         let of_keys = keys::shortcuts(&ctx, &self.state, &keys, view_has_focus, is_behind_dialog);
@@ -536,7 +554,7 @@ impl Window {
     /// True while any dialog is on top of the workspaces, including the system's.
     fn is_behind_dialog(&self, ctx: &egui::Context) -> bool {
         let state = &self.state;
-        let is_own = state.is_help_open
+        let is_own = state.help.is_some()
             || state.session.live.setup.is_some()
             || state.roles.asked.is_some()
             || matches!(state.closing, Closing::Asked { .. })
@@ -562,6 +580,34 @@ impl Window {
             self.act(Action::Role(RoleAction::Lock), ctx);
         }
     }
+}
+
+/// Where the window's files are; those of the user where the options name none.
+fn installation(options: &WindowOptions) -> Installation {
+    let cases = options.cases.clone();
+    let users = || Some(CaseFolder::of_user().ok()?.path().to_owned());
+    Installation {
+        settings: options.settings.clone(),
+        history: options.history.clone(),
+        cases: cases.or_else(users),
+        recipes: options.recipes.clone(),
+        ..Installation::default()
+    }
+}
+
+/// The graphics adapter, or why there is none.
+fn described_gpu(gpu: &Result<ViewportGpu, ViewError>) -> String {
+    match gpu {
+        Ok(gpu) => gpu.adapter(),
+        Err(error) => error.to_string(),
+    }
+}
+
+/// Tells that another window is open with the same data folder.
+fn second_window() -> Notice {
+    let advice = text!("shell-second-window-advice");
+    let notice = Notice::look(text!("shell-second-window"), advice);
+    notice.about(NoticeTopic::SecondWindow)
 }
 
 impl eframe::App for Window {

@@ -55,6 +55,7 @@ mod surface;
 mod text;
 mod write;
 pub mod xyz;
+mod zip;
 
 pub use self::cause::{advice_on, words_of};
 pub use self::cells::{Row, csv_comment, csv_text, table_rows};
@@ -79,6 +80,9 @@ pub use self::text::{parse_json, parse_toml, read_text, toml_problem, visible};
 pub use self::write::{replace_file, write_text};
 pub use self::write::{save_cloud, write_atomically};
 pub use self::xyz::write_xyz;
+#[cfg(any(test, feature = "fixtures"))]
+pub use self::zip::read_zip;
+pub use self::zip::write_zip;
 
 /// Endings of files that may hold a captured scene, for file dialogs; the content decides what a file is.
 pub const SCENE_ENDINGS: &[&str] = &["pcd", "ply", "xyz", "txt", "csv", "asc", "pts", "png"];

@@ -4,6 +4,7 @@ use std::{path::PathBuf, sync::Arc};
 
 use crate::{
     cell::{AnswerSetup, ProgramSetup, RobotAction, ServoSettings},
+    help::Help,
     inspection::{
         inspected::{InspectJob, Inspected},
         library_cache::LibraryView,
@@ -48,7 +49,7 @@ pub enum Action {
     GoTo(WorkspaceKind),
     /// Ask the operator what the part on the screen really is.
     WrongPart,
-    /// Close what is on top: the shortcuts, then an enlarged stage.
+    /// Close what is on top: Help, then an enlarged stage.
     CloseTop,
     /// Switch the units.
     SwitchUnits,
@@ -56,8 +57,10 @@ pub enum Action {
     SwitchTheme,
     /// Use another language.
     Speak(Language),
-    /// Open or close the list of shortcuts.
+    /// Open or close Help.
     ToggleHelp,
+    /// Show this in Help, while it is open.
+    EditHelp(Help),
     /// Remove the notice at this index.
     Dismiss(usize),
     /// Remove all notices.
@@ -171,6 +174,8 @@ pub enum DialogRequest {
     SaveRack,
     /// The table of orders.
     Orders,
+    /// The file to write a problem report to.
+    ProblemReport,
 }
 
 /// An event that the shell sends to workspaces.

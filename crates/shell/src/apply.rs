@@ -5,6 +5,7 @@ use std::path::{self, PathBuf};
 use crate::{
     action::{Action, DialogRequest, Event},
     cell::AnswerSetup,
+    help::{self, Help},
     inspection::source::ScanFiles,
     notice::{Notice, NoticeKind},
     rack::{self, RackAction},
@@ -52,7 +53,7 @@ pub fn apply(state: &mut State, action: Action) -> Option<Action> {
             let part = state.session.current_result()?.hung().clone();
             return Some(Action::Tell(Event::WrongPart(part)));
         }
-        Action::CloseTop if state.is_help_open => state.is_help_open = false,
+        Action::CloseTop if state.help.is_some() => state.help = None,
         Action::CloseTop => return Some(Action::Tell(Event::Escape)),
         Action::SwitchUnits => state.session.units = state.session.units.other(),
         Action::UseConvention(convention) => state.session.convention = convention,
@@ -61,7 +62,8 @@ pub fn apply(state: &mut State, action: Action) -> Option<Action> {
             state.session.language = language;
             state.session.chosen_language = Some(language);
         }
-        Action::ToggleHelp => state.is_help_open = !state.is_help_open,
+        Action::ToggleHelp => state.help = state.help.is_none().then(Help::default),
+        Action::EditHelp(help) => state.help = state.help.is_some().then_some(help),
         Action::Dismiss(index) => {
             take_notice(state, index);
         }
@@ -166,6 +168,7 @@ fn chosen(state: &mut State, ask: DialogRequest, path: PathBuf) -> Option<Action
         DialogRequest::RecordTo => return live::apply(state, LiveAction::Record(path)),
         DialogRequest::Library => state.open_library(Some(path)),
         DialogRequest::Orders => expecting::use_orders(state, path),
+        DialogRequest::ProblemReport => help::report::write(state, path),
     }
     None
 }
@@ -220,11 +223,11 @@ mod tests {
     }
 
     #[test]
-    fn escape_closes_the_shortcuts_before_the_enlarged_stage() {
+    fn escape_closes_help_before_the_enlarged_stage() {
         let mut state = State::default();
         apply(&mut state, Action::ToggleHelp);
         assert!(apply(&mut state, Action::CloseTop).is_none());
-        assert!(!state.is_help_open);
+        assert!(state.help.is_none());
         let effect = apply(&mut state, Action::CloseTop);
         assert!(matches!(effect, Some(Action::Tell(Event::Escape))));
     }

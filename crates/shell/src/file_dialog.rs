@@ -1,8 +1,9 @@
-//! The system's file dialogs, polled without blocking, and a typed path in their place where the desktop has none.
+//! The system's file dialogs, polled without blocking. Where the desktop has none, a path is typed or chosen in a list of folders
+//! and files.
 
 use std::{
     cell::{Cell, RefCell, RefMut},
-    fmt,
+    fmt, fs,
     path::{self, Path, PathBuf},
     pin::Pin,
     rc::Rc,
@@ -11,16 +12,16 @@ use std::{
     time::{Duration, Instant},
 };
 
-use egui::{Key, RichText, TextEdit, text_edit::TextEditState};
+use egui::{Key, RichText, ScrollArea, TextEdit, Ui, text_edit::TextEditState};
 
 use crate::notice::Notice;
-use files::{POINT_ENDINGS, disk, file_of, folder_of, words_of};
+use files::{POINT_ENDINGS, disk, file_name, file_of, folder_of, in_counting_order, words_of};
 use geometry::error::lock;
 use robot::program::RobotLanguage;
 use ui::{
     language::text,
     theme::{Theme, space},
-    widgets::{self, text_button},
+    widgets::{self, show_scroll_bar, text_button},
 };
 
 /// A kind of files: its name and its endings.
@@ -127,6 +128,11 @@ impl DialogLock {
     /// True while a dialog is open.
     pub fn is_open(&self) -> bool {
         self.0.is_open.get()
+    }
+
+    /// True while the system's dialog is open or opens, which takes a while on a busy computer: typed letters are meant for it.
+    pub fn takes_keys(&self) -> bool {
+        self.is_open() && self.typed().is_none()
     }
 
     /// The path being typed, if any.
@@ -313,6 +319,8 @@ fn usual_folder(choice: &FileChoice) -> PathBuf {
 
 /// Width of the dialog, logical pixels.
 const WIDTH: f32 = 560.0;
+/// Height of its list, logical pixels.
+const LIST_HEIGHT: f32 = 240.0;
 
 /// A path being typed.
 #[derive(Debug)]
@@ -321,6 +329,12 @@ struct PathEntry {
     /// The folder in which typing started.
     folder: PathBuf,
     text: String,
+    /// The text when the list was made.
+    listed_for: Option<String>,
+    /// The folder that is listed.
+    listed: PathBuf,
+    /// What is in it.
+    entries: Vec<FolderEntry>,
     problem: Option<String>,
     /// The existing file that would be replaced, once the user was warned.
     replaced: Option<PathBuf>,
@@ -328,6 +342,16 @@ struct PathEntry {
     outcome: Poll<Option<PathBuf>>,
     is_new: bool,
 }
+
+/// A folder or file in the list.
+#[derive(Debug, PartialEq, Eq)]
+struct FolderEntry {
+    name: String,
+    is_folder: bool,
+}
+
+/// Maximum number of entries in the list.
+const MAX_ENTRIES: usize = 1000;
 
 impl PathEntry {
     /// Starts in this folder.
@@ -342,6 +366,9 @@ impl PathEntry {
             text: begun.display().to_string(),
             request,
             folder,
+            listed_for: None,
+            listed: PathBuf::new(),
+            entries: Vec::new(),
             problem: None,
             replaced: None,
             outcome: Poll::Pending,
@@ -355,14 +382,113 @@ impl PathEntry {
         (self.problem, self.replaced) = (None, None);
     }
 
-    /// Accepts the text as a path, or shows what is wrong with it.
-    fn confirm(&mut self) {
+    /// The text as a path.
+    fn path(&self) -> PathBuf {
         let typed = Path::new(self.text.trim());
-        let typed = match (typed.strip_prefix("~"), directories::UserDirs::new()) {
+        match (typed.strip_prefix("~"), directories::UserDirs::new()) {
             (Ok(rest), Some(user)) => user.home_dir().join(rest),
             _ => typed.to_owned(),
+        }
+    }
+
+    /// Lists the folder that the text names, if it is another one.
+    fn list(&mut self) {
+        if self.listed_for.as_ref() == Some(&self.text) {
+            return;
+        }
+        self.listed_for = Some(self.text.clone());
+        let path = self.path();
+        let folder = if path.is_dir() {
+            path.as_path()
+        } else {
+            folder_of(&path)
         };
-        self.problem = match path::absolute(&typed) {
+        if folder == self.listed {
+            return;
+        }
+        folder.clone_into(&mut self.listed);
+        self.entries = self.entries_of(folder);
+    }
+
+    /// The folders in this one and, if a file is wanted, its files of the wanted kinds; none if it cannot be read.
+    fn entries_of(&self, folder: &Path) -> Vec<FolderEntry> {
+        let is_file_wanted = matches!(
+            self.request.choice,
+            FileChoice::File | FileChoice::NewFile(_)
+        );
+        let mut endings = self
+            .request
+            .filters
+            .iter()
+            .flat_map(|(_, endings)| *endings);
+        let takes_all = self.request.filters.is_empty() || endings.any(|ending| *ending == "*");
+        let is_wanted = |entry: &FolderEntry| {
+            let ending = Path::new(&entry.name).extension().unwrap_or_default();
+            let kinds = self.request.filters.iter();
+            let mut endings = kinds.flat_map(|(_, endings)| *endings);
+            let is_kind = takes_all || endings.any(|known| ending.eq_ignore_ascii_case(known));
+            entry.is_folder || is_file_wanted && is_kind
+        };
+        let found = fs::read_dir(folder).into_iter().flatten().flatten();
+        let found = found.map(|entry| FolderEntry {
+            name: file_name(&entry.path()),
+            is_folder: entry.path().is_dir(),
+        });
+        let shown = found.filter(|entry| !entry.name.starts_with('.') && is_wanted(entry));
+        let mut shown: Vec<FolderEntry> = shown.take(MAX_ENTRIES).collect();
+        shown.sort_by_cached_key(|entry| (!entry.is_folder, in_counting_order(&entry.name)));
+        shown
+    }
+
+    /// Goes into a folder of the list, or to the one around it; a name of a file to write stays.
+    fn enter(&mut self, folder: &Path) {
+        let text = match &self.request.choice {
+            FileChoice::NewFile(_) => folder.join(file_name(&self.path())),
+            FileChoice::File | FileChoice::Folder | FileChoice::FolderToWrite => folder.join(""),
+        };
+        self.write(&text.display().to_string());
+        self.is_new = true;
+    }
+
+    /// Draws the folder around the listed one, and what is in that.
+    fn entries_ui(&mut self, ui: &mut Ui) {
+        self.list();
+        show_scroll_bar(ui);
+        let (mut entered, mut chosen) = (None, None);
+        let area = ScrollArea::vertical().id_salt(&self.listed);
+        let area = area
+            .max_height(LIST_HEIGHT)
+            .min_scrolled_height(LIST_HEIGHT);
+        area.auto_shrink(false).show(ui, |ui| {
+            if let Some(above) = self.listed.parent()
+                && ui.selectable_label(false, "../").clicked()
+            {
+                entered = Some(above.to_owned());
+            }
+            for entry in &self.entries {
+                let path = self.listed.join(&entry.name);
+                if entry.is_folder {
+                    let name = format!("{}/", entry.name);
+                    if ui.selectable_label(false, name).clicked() {
+                        entered = Some(path);
+                    }
+                } else if ui.selectable_label(false, &entry.name).clicked() {
+                    chosen = Some(path);
+                }
+            }
+        });
+        if let Some(folder) = entered {
+            self.enter(&folder);
+        }
+        if let Some(file) = chosen {
+            self.write(&file.display().to_string());
+            self.is_new = true;
+        }
+    }
+
+    /// Accepts the text as a path, or shows what is wrong with it.
+    fn confirm(&mut self) {
+        self.problem = match path::absolute(self.path()) {
             Err(_) => Some(text!("shell-type-a-path")),
             Ok(path) => {
                 let problem = self.problem_with(&path);
@@ -434,6 +560,7 @@ pub fn ui(ctx: &egui::Context, lock: &DialogLock) {
             field.request_focus();
         }
         let is_entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+        ui.scope(|ui| entry.entries_ui(ui));
         if let Some(problem) = &entry.problem {
             ui.label(RichText::new(problem).color(theme.warning));
         }
@@ -534,6 +661,62 @@ mod tests {
         assert!(lock.take().is_some());
     }
 
+    #[test]
+    fn folders_are_entered_and_files_of_the_wanted_kinds_chosen() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let inner = folder.path().join("captures");
+        for (name, is_shown) in [
+            ("door10.pcd", true),
+            ("door9.PCD", true),
+            ("note.md", false),
+        ] {
+            std::fs::create_dir_all(inner.join("deep")).expect("made");
+            std::fs::write(inner.join(name), "x").expect("written");
+            let mut opened = entry(FileChoice::File, &inner);
+            opened.request.filters = vec![points()];
+            opened.list();
+            let is_listed = opened.entries.iter().any(|entry| entry.name == name);
+            assert_eq!(is_listed, is_shown, "{name}");
+        }
+        let mut opened = entry(FileChoice::File, folder.path());
+        opened.list();
+        let names = |entry: &PathEntry| -> Vec<String> {
+            entry
+                .entries
+                .iter()
+                .map(|entry| entry.name.clone())
+                .collect()
+        };
+        assert_eq!(names(&opened), ["captures"]);
+        opened.enter(&inner);
+        opened.list();
+        assert_eq!(
+            names(&opened),
+            ["deep", "door9.PCD", "door10.pcd", "note.md"]
+        );
+        let mut written = entry(FileChoice::NewFile("view.png".into()), folder.path());
+        written.enter(&inner);
+        assert_eq!(Path::new(&written.text), inner.join("view.png"));
+        let mut chosen = entry(FileChoice::Folder, folder.path());
+        chosen.enter(&inner);
+        chosen.list();
+        assert_eq!(names(&chosen), ["deep"]);
+        chosen.confirm();
+        assert_eq!(chosen.outcome, Poll::Ready(Some(inner.join(""))));
+    }
+
+    #[test]
+    fn letters_typed_while_the_systems_dialog_opens_are_meant_for_it() {
+        let lock = DialogLock::default();
+        assert!(!lock.takes_keys());
+        let guard = lock.take().expect("free");
+        assert!(lock.takes_keys());
+        *lock.typed() = Some(entry(FileChoice::File, Path::new("/")));
+        assert!(!lock.takes_keys(), "a path is typed");
+        drop(guard);
+        assert!(!lock.takes_keys());
+    }
+
     fn entry(choice: FileChoice, folder: &Path) -> PathEntry {
         let request = FileRequest {
             title: "Open".into(),
@@ -608,6 +791,16 @@ mod tests {
         harness.run_steps(4);
         assert_eq!(field(&harness), path.display().to_string());
         harness.key_press(Key::Enter);
+        harness.run_steps(4);
+        let outcome = lock.typed().as_ref().map(|entry| entry.outcome.clone());
+        assert_eq!(outcome, Some(Poll::Ready(Some(path.clone()))));
+        // The same from the list.
+        *lock.typed() = Some(entry(FileChoice::File, folder.path()));
+        harness.run_steps(4);
+        harness.get_by_label("door.pcd").click();
+        harness.run_steps(4);
+        assert_eq!(field(&harness), path.display().to_string());
+        harness.get_by_label("OK").click();
         harness.run_steps(4);
         let outcome = lock.typed().as_ref().map(|entry| entry.outcome.clone());
         assert_eq!(outcome, Some(Poll::Ready(Some(path))));

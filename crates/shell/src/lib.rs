@@ -1,6 +1,7 @@
 //! The window around its workspaces: the session that they share, actions and notices, and what stands around them.
 //!
 //! - [`frame`]: the bars above, below and beside the work, the notices, the keys, and the question before the window closes.
+//! - [`help`]: the list of keys, the guide, the program and this computer, and problem reports.
 //! - [`source`]: takes scenes from the source, once or continuously, and inspects them.
 //! - [`cell`]: the robot's cell, its calibration and its check, and the answers to robots.
 //! - [`rack`]: where parts may hang, and the window in which that is edited.
@@ -17,6 +18,7 @@ pub mod apply;
 pub mod cell;
 pub mod file_dialog;
 pub mod frame;
+pub mod help;
 pub mod inspection;
 pub mod language;
 pub mod notice;

@@ -24,6 +24,7 @@ use crate::{
     state::State,
     trace::{current_trace::CurrentTrace, orders::Expecting},
 };
+use capture::SourceSpec;
 use files::{FileError, advice_on, disk, user_settings, write_text};
 use geometry::error::{Advice as _, lock};
 use inspection::pipeline::{NamedRecipe, Recipe, RecipeLabel, parameters::is_valid};
@@ -166,6 +167,20 @@ impl Settings {
             rack: state.session.rack.clone(),
             orders: state.session.expecting.orders().map(Path::to_owned),
         }
+    }
+
+    /// The settings without PIN, addresses of robots and cameras, order, and name of the operator.
+    pub(crate) fn without_secrets(mut self) -> Self {
+        if let Source::Camera(spec) = &mut self.source
+            && let SourceSpec::Genicam(spec) = &mut **spec
+        {
+            spec.device = None;
+        }
+        self.pin = None;
+        self.servo.address.clear();
+        self.answering.at.address = AnswerSetup::default().at.address;
+        self.traceability = Traceability::default();
+        self
     }
 
     /// Makes the state to start with; its tasks run on `runner` and share `library_cache`.
@@ -606,6 +621,23 @@ mod tests {
             ..ProgramSetup::default()
         };
         assert_eq!(settings.program, wanted);
+    }
+
+    #[test]
+    fn secrets_are_left_out_and_the_rest_stays() {
+        let mut settings = unusual();
+        settings.servo.address = "192.168.1.20".into();
+        settings.traceability.operator = "Ada".into();
+        let source = "genicam:192.168.1.30".parse().expect("a source");
+        settings.source = Source::Camera(Box::new(source));
+        let known = ["[pin]", "192.168.1", "Ada"];
+        let text = toml::to_string(&settings).expect("text");
+        assert!(known.iter().all(|secret| text.contains(secret)), "{text}");
+        let text = toml::to_string(&settings.without_secrets()).expect("text");
+        assert!(!known.iter().any(|secret| text.contains(secret)), "{text}");
+        for kept in ["genicam", "eki=", "min_score = 0.91", "glossy"] {
+            assert!(text.contains(kept), "{kept} in {text}");
+        }
     }
 
     #[test]

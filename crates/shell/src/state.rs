@@ -1,6 +1,6 @@
 //! State of the window outside the workspaces: the session that they share, and the parts that change it.
 
-use std::path::PathBuf;
+use std::{collections::VecDeque, path::PathBuf};
 
 use super::{
     notice::{Notice, NoticeTopic},
@@ -10,10 +10,12 @@ use super::{
     shift::ShiftWatch,
 };
 use crate::{
+    help::{Help, Installation},
     inspection::library_cache::LibraryCache,
     source::{inspector::Inspector, live::Follower},
     trace::orders::OrdersWatch,
 };
+use geometry::clock;
 use ui::task::{Task, TaskRunner};
 
 /// State of the window outside the workspaces. [`apply`](crate::apply::apply) changes it.
@@ -27,8 +29,12 @@ pub struct State {
     pub follower: Follower,
     /// Notices, oldest first.
     pub notices: Vec<Notice>,
-    /// True while the list of shortcuts is open.
-    pub is_help_open: bool,
+    /// All notices of late with their times, oldest first; for problem reports.
+    pub log: VecDeque<String>,
+    /// Help, while it is open.
+    pub help: Option<Help>,
+    /// What the window runs on, and where its files are.
+    pub installation: Installation,
     /// Whether the window may close.
     pub closing: Closing,
     /// The last generation number given to a result.
@@ -43,6 +49,8 @@ pub struct State {
     pub rack_reading: Task<ReadRack>,
     /// Writes the file of a rack.
     pub rack_saving: Task<PathBuf>,
+    /// Writes a problem report.
+    pub report_writing: Task<PathBuf>,
 }
 
 /// Whether the window may close.
@@ -77,7 +85,9 @@ impl State {
             inspector: Inspector::new(runner, library_cache),
             follower: Follower::new(runner, library_cache),
             notices: Vec::new(),
-            is_help_open: false,
+            log: VecDeque::new(),
+            help: None,
+            installation: Installation::default(),
             closing: Closing::default(),
             generation: 0,
             roles: RoleState::default(),
@@ -85,12 +95,15 @@ impl State {
             orders_watch: OrdersWatch::new(runner),
             rack_reading: Task::new("rack-reading", runner),
             rack_saving: Task::new("rack-saving", runner),
+            report_writing: Task::new("problem-report", runner),
         }
     }
 }
 
 /// Maximum number of notices; the oldest is dropped for another.
 const MAX_NOTICES: usize = 4;
+/// Maximum number of notices in the log.
+const MAX_LOGGED: usize = 500;
 
 /// Removes the notices about this.
 pub fn remove_notices(state: &mut State, topic: NoticeTopic) {
@@ -99,6 +112,7 @@ pub fn remove_notices(state: &mut State, topic: NoticeTopic) {
 
 /// Shows a notice.
 pub fn notify(state: &mut State, mut notice: Notice) {
+    log(state, &notice);
     let covered = state.notices.iter();
     let num_covered: usize = covered.map(|known| known.num_covered_by(&notice)).sum();
     notice.num_more += num_covered;
@@ -106,4 +120,18 @@ pub fn notify(state: &mut State, mut notice: Notice) {
     state.notices.push(notice);
     let num_over = state.notices.len().saturating_sub(MAX_NOTICES);
     state.notices.drain(..num_over);
+}
+
+/// Adds a notice to the log, unless its last line says the same.
+fn log(state: &mut State, notice: &Notice) {
+    let says = format!("{} {}", notice.what, notice.advice);
+    let says = says.trim().replace('\n', " ");
+    if state.log.back().is_some_and(|last| last.ends_with(&says)) {
+        return;
+    }
+    let at = clock::now();
+    state.log.push_back(format!("{at:.0} {says}"));
+    if state.log.len() > MAX_LOGGED {
+        state.log.pop_front();
+    }
 }

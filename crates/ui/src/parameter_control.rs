@@ -8,7 +8,7 @@ use egui::{
 
 use super::{
     theme::{Theme, space},
-    widgets::{button_width, labelled},
+    widgets::{button_width, labelled, menu_button},
 };
 use crate::language::{
     parameters::{self, TranslatedParameters},
@@ -197,7 +197,7 @@ fn choice_ui<R: TranslatedParameters>(
     let widths = options.iter().map(|option| button_width(ui, option));
     if each < widths.fold(64.0, f32::max) {
         let now = options.get(chosen).cloned().unwrap_or_default();
-        ui.menu_button(format!("{now} ▼"), |ui| {
+        menu_button(ui, format!("{now} ▼"), |ui| {
             for (index, option) in options.iter().enumerate() {
                 if ui.selectable_label(index == chosen, option).clicked() {
                     changed(ParameterChange::Set(index as f64));

@@ -4,9 +4,9 @@ use std::sync::Arc;
 
 use egui::{
     Align, Align2, Area, Button, Color32, ColorImage, ComboBox, Context, Event, FontId, Frame,
-    Galley, Id, Key, Label, Layout, Margin, Modal, ModalResponse, Painter, Panel, Pos2, Rect,
-    Response, RichText, ScrollArea, Sense, Stroke, StrokeKind, TextEdit, TextStyle, TextWrapMode,
-    TextureHandle, TextureOptions, Ui, Vec2, WidgetInfo, pos2,
+    Galley, Id, InnerResponse, IntoAtoms, Key, Label, Layout, Margin, Modal, ModalResponse,
+    Painter, Panel, Pos2, Rect, Response, RichText, ScrollArea, Sense, Stroke, StrokeKind,
+    TextEdit, TextStyle, TextWrapMode, TextureHandle, TextureOptions, Ui, Vec2, WidgetInfo, pos2,
     style::{ScrollStyle, StyleModifier},
     text::LayoutJob,
     vec2,
@@ -441,6 +441,23 @@ fn bar_of_menu() -> ScrollStyle {
 /// Shows the scroll bar of a menu even without the pointer: it is the only sign of further entries.
 pub fn show_scroll_bar(ui: &mut Ui) {
     ui.spacing_mut().scroll = bar_of_menu();
+}
+
+/// Draws a button that opens a menu; within a menu, an entry that opens one beside it.
+pub fn menu_button<'a, R>(
+    ui: &mut Ui,
+    title: impl IntoAtoms<'a>,
+    entries: impl FnOnce(&mut Ui) -> R,
+) -> InnerResponse<Option<R>> {
+    ui.menu_button(title, |ui| {
+        pad_entries(ui);
+        entries(ui)
+    })
+}
+
+/// Gives the entries of a menu room around their text: egui leaves them none.
+pub fn pad_entries(ui: &mut Ui) {
+    ui.spacing_mut().button_padding = vec2(space::MEDIUM, space::SMALL);
 }
 
 /// Draws the entries of a menu, which scroll if there are many.

@@ -16,7 +16,7 @@ use crate::cli::{
 };
 use geometry::{
     error::Advice,
-    units::{Metres, Radians},
+    units::{Metres, Radians, counted},
 };
 use jiff::Timestamp;
 use records::history::{Filter, History, ServoRun, ServoSample, write_servo_table};
@@ -99,7 +99,8 @@ pub(super) fn list(
     let page = history.servo_runs(&filter, 0, most).advised()?;
     if let Some(path) = &asked.csv {
         let num = write_servo_table(path, page.rows.iter().rev()).advised()?;
-        console.line(&format_args!("Wrote {num} runs to {}", path.display()));
+        let runs = counted(num, "run", "runs");
+        console.line(&format_args!("Wrote {runs} to {}", path.display()));
         return Ok(Outcome::Accepted);
     }
     if asked.json {

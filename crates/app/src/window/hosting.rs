@@ -120,6 +120,7 @@ impl Window {
             && self.state.shift_watch.is_idle()
             && self.state.rack_reading.running().is_none()
             && self.state.rack_saving.running().is_none()
+            && self.state.report_writing.running().is_none()
             && self.robot.is_idle();
         is_shell_idle && all.all(|workspace| workspace.is_idle(session))
     }

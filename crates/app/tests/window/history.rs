@@ -328,7 +328,7 @@ fn another_recipe_while_the_part_hangs_there_is_no_other_part_and_what_differs_i
     });
     harness.get_by_label("Not accepted");
     go_to_history(&mut harness);
-    harness.get_by_label("1 of 1 entries");
+    harness.get_by_label("1 of 1 entry");
     // The acceptance still counts: a robot may have acted on it.
     harness.get_by_label("Inspection 1: Front door, left, Accepted, inspected again once");
     harness.get_by_label("Of this part: inspection 1, Accepted · counts");
@@ -354,7 +354,7 @@ fn another_recipe_while_the_part_hangs_there_is_no_other_part_and_what_differs_i
         });
     });
     go_to_history(&mut harness);
-    harness.get_by_label("1 of 1 entries");
+    harness.get_by_label("1 of 1 entry");
     assert_eq!(
         history_of(&harness).row(0).map(|row| row.num_below),
         Some(1)
@@ -379,7 +379,7 @@ fn a_scan_is_listed_and_opened_again_with_its_shots_though_its_folder_is_gone() 
     let mut harness = open_with(USUAL, options);
     harness.get_by_label("Fender, left");
     go_to_history(&mut harness);
-    harness.get_by_label("1 of 1 entries");
+    harness.get_by_label("1 of 1 entry");
     drop((harness, scan));
 
     let mut harness = open_with(USUAL, keeping(folder.path()));

@@ -108,7 +108,9 @@ fn a_broken_file_is_a_notice_and_the_window_goes_on() {
     harness.run_steps(2);
     assert!(harness.query_by_label("Dismiss").is_none());
     harness.get_by_label_contains("Source").click();
-    harness.run_steps(2);
+    harness.run_steps(4);
+    harness.get_by_label("Simulated cell").click();
+    harness.run_steps(4);
     harness.get_by_label("Every part in turn").click();
     settle(&mut harness);
     harness.get_by_label("Simulated frame 2");
@@ -388,7 +390,7 @@ fn keys_pressed_after_one_that_opens_a_dialog_do_nothing_even_in_the_same_frame(
         harness.step();
         let state = harness.state().state();
         let is_asked = harness.state().robot().dialog().is_some();
-        (state.session.theme, state.is_help_open, is_asked)
+        (state.session.theme, state.help.is_some(), is_asked)
     };
     let dark = ThemeChoice::Dark;
     let after_help = press(&mut harness, &[Key::F1, Key::T, Key::B]);

@@ -9,6 +9,7 @@ mod cell_check;
 mod compare;
 mod enrol;
 mod expecting;
+mod help;
 mod history;
 mod inspect;
 mod language;

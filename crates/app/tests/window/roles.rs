@@ -208,7 +208,10 @@ fn another_source_is_the_engineers_to_choose() {
     act(&mut harness, Action::GoTo(WorkspaceKind::History));
     harness.get_by_label_contains("Source · ").click();
     harness.run_steps(8);
-    press(&mut harness, "Radiator support");
+    harness.get_by_label("Simulated cell").click();
+    harness.run_steps(4);
+    harness.get_by_label("Radiator support").click();
+    settle(&mut harness);
     let source = |harness: &WindowHarness| harness.state().state().session.source.clone();
     assert_eq!(source(&harness), Source::default());
     write(&mut harness, "2580", "Unlock");

@@ -100,14 +100,14 @@ fn a_simulated_robot_is_servoed_and_its_run_is_a_row_of_the_history() {
     assert_eq!(record.curve, own(harness.state()).curve());
     // Inspections are not counted with it.
     act(&mut harness, Action::GoTo(WorkspaceKind::History));
-    harness.get_by_label("1 of 1 entries");
+    harness.get_by_label("1 of 1 entry");
     press(&mut harness, "Servo runs");
-    harness.get_by_label("1 of 1 runs");
+    harness.get_by_label("1 of 1 run");
     harness.get_by_label("Run 1: Fender, left, The target is reached");
     harness.get_by_label("Shift left, mm");
     harness.get_by_label("Standard position");
     press(&mut harness, "Servo runs");
-    harness.get_by_label("1 of 1 entries");
+    harness.get_by_label("1 of 1 entry");
 }
 
 #[test]

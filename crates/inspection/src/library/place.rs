@@ -12,14 +12,17 @@ use super::{
     entry::{NEW_PREFIX, THUMBNAIL},
     error::LibraryError,
     load::{LibraryListing, LibraryLoad, list_shipped, load_shipped, read_shipped},
+    name::PartName,
     numbers::{GivenNumbers, PartNumbers},
     problem::EntryProblem,
-    shipped::{shipped_entries, shipped_numbers, write_shipped},
+    shipped::{shipped_entries, shipped_files, shipped_numbers, write_shipped},
     spray_path::{SprayPath, SprayPathError},
     store::LibraryFolder,
     stored_part::StoredPart,
 };
-use files::{disk, new_folder, read_picture, sync_folder, user_data, write_atomically};
+use files::{
+    disk, file_name, new_folder, read_bytes, read_picture, sync_folder, user_data, write_atomically,
+};
 use stages::reference::ReferenceParams;
 
 /// A library and the reason for choosing it.
@@ -112,6 +115,20 @@ impl LibraryPlace {
                 available: shipped_entries().into_iter().map(|e| e.name).collect(),
             }),
         }
+    }
+
+    /// Reads the files of a part, names and contents; see [`LibraryFolder::files_of`].
+    pub fn contents_of(&self, name: &PartName) -> Result<Vec<(String, Vec<u8>)>, LibraryError> {
+        let Some(folder) = self.folder() else {
+            let files = shipped_files(name.as_str()).unwrap_or_default().iter();
+            return Ok(files
+                .map(|(file, content)| ((*file).to_owned(), content.to_vec()))
+                .collect());
+        };
+        let files = folder.files_of(name)?.into_iter();
+        files
+            .map(|path| Ok((file_name(&path), read_bytes(&path)?)))
+            .collect()
     }
 
     /// Reads the thumbnail of a part; `None` if it is missing or unreadable.

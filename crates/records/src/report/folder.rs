@@ -9,7 +9,9 @@ use std::{
 use super::{
     pictures::{Picture, STAGES, strip, write_png},
     pose_report::{CsvError, PoseReport, append_csv},
+    problem::ProblemReport,
 };
+use crate::history::FrameError;
 use files::{FileError, advice_on, disk, words_of, write_atomically, write_text};
 use geometry::error::Advice;
 use robot::Convention;
@@ -31,6 +33,10 @@ pub enum ReportError {
     #[error(transparent)]
     #[advice(transparent)]
     File(#[from] FileError),
+    /// A scene cannot be written.
+    #[error(transparent)]
+    #[advice(transparent)]
+    Frame(#[from] FrameError),
     /// A row cannot be appended to the table of pose reports.
     #[error(transparent)]
     #[advice(transparent)]
@@ -68,6 +74,8 @@ pub struct ReportFolder {
     taken: BTreeSet<String>,
     /// Stems in use by pose reports.
     taken_poses: BTreeSet<String>,
+    /// Stems in use by problem reports.
+    taken_problems: BTreeSet<String>,
     has_reports: bool,
 }
 
@@ -82,6 +90,7 @@ impl ReportFolder {
             path: path.to_owned(),
             taken: BTreeSet::new(),
             taken_poses: BTreeSet::new(),
+            taken_problems: BTreeSet::new(),
             has_reports: false,
         })
     }
@@ -174,6 +183,20 @@ impl ReportFolder {
             }
         }
         written
+    }
+
+    /// Writes the problem report of a scene as `STEM.problem.zip`, and returns its path; replaces one of an earlier call.
+    pub fn write_problem(
+        &mut self,
+        scene: &Path,
+        report: &ProblemReport<'_>,
+    ) -> Result<PathBuf, ReportError> {
+        let is_free = |stem: &String| !self.taken_problems.contains(stem);
+        let stem = counted(scene).find(is_free).unwrap_or_default();
+        let path = self.path.join(format!("{stem}.problem.zip"));
+        report.write(&path)?;
+        self.taken_problems.insert(stem);
+        Ok(path)
     }
 
     /// Returns the CSV file that collects the pose reports in one convention.

@@ -22,6 +22,7 @@ mod line;
 mod pictures;
 #[cfg(feature = "cli")]
 pub mod pose_report;
+mod problem;
 #[cfg(feature = "cli")]
 mod runner_up_picture;
 mod text_table;
@@ -40,5 +41,6 @@ pub use self::{
 pub use self::{
     evaluation_report::EvaluationReport,
     line::{CaptureLine, InspectionLine, SCHEMA, ScanLine, TimingsLine},
+    problem::{ProblemReport, compared_entries},
     text_table::TextTable,
 };

@@ -19,7 +19,8 @@ use ui::{
     task::Running,
     theme::{ROUNDING, Theme, ThemeChoice, font, space},
     widgets::{
-        Mark, NARROW, fixed_panel, labelled, line_mark, shortened, status_label, text_button,
+        Mark, NARROW, fixed_panel, labelled, line_mark, menu_button, shortened, status_label,
+        text_button,
     },
 };
 
@@ -190,7 +191,7 @@ fn settings(ui: &mut Ui, state: &State, is_at_work: bool, actions: &mut Vec<Acti
 /// Draws the menu of languages, each by its own name.
 fn language_menu(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
     let now = state.session.language;
-    let menu = ui.menu_button(format!("{} ▼", now.sign()), |ui| {
+    let menu = menu_button(ui, format!("{} ▼", now.sign()), |ui| {
         for language in Language::ALL {
             let button = Button::selectable(language == now, language.own_name());
             if ui.add(button).clicked() {
@@ -228,7 +229,7 @@ fn library_menu(
         (LibraryForm::Short, false) => opened(num.to_string()),
         (LibraryForm::Full | LibraryForm::Hidden, _) => text.clone(),
     };
-    let menu = ui.menu_button(shown, |ui| {
+    let menu = menu_button(ui, shown, |ui| {
         ui.set_min_width(260.0);
         ui.label(RichText::new(text!("shell-library-in-use")).font(font::heading()));
         ui.label(library.path.display().to_string());

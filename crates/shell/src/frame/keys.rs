@@ -1,20 +1,20 @@
 //! Shortcuts, and the list of them.
 
-use egui::{Event, Id, Key, KeyboardShortcut, Modifiers, RichText, ScrollArea, vec2};
+use egui::{Event, Id, Key, KeyboardShortcut, Modifiers};
 
 use crate::{
     action::{self, Action, DialogRequest},
     cell::RobotAction,
+    rack::RackAction,
     roles::{self, RoleAction},
     session::WorkspaceKind,
     source::live::LiveAction,
     state::State,
 };
+use capture::SimulatedSpec;
 use ui::{
     key_binding::{CTRL_SHIFT, KeyBinding, Shortcut},
-    language::{keys, text},
-    theme::{font, space},
-    widgets,
+    language::{Language, keys, text},
 };
 
 /// The shortcuts of the whole window.
@@ -69,9 +69,6 @@ const RAIL_KEYS: [Key; 7] = [
     Key::Num6,
     Key::Num7,
 ];
-
-/// Part of the window's height that the list leaves free, for heading, button, edges, and a notice above it, logical pixels.
-const HELP_MARGIN: f32 = 230.0;
 
 /// True for the window's keys that act in the operator's view, where a PIN protects the source.
 fn is_operators(binding: &KeyBinding, has_pin: bool) -> bool {
@@ -165,67 +162,103 @@ fn remember_writing(ctx: &egui::Context, is_writing: bool) -> bool {
     })
 }
 
-/// Texts of the shortcuts, each before the one with Shift, which is matched first.
-fn listed(bindings: impl Iterator<Item = KeyBinding>) -> impl Iterator<Item = [String; 2]> {
-    let mut all: Vec<KeyBinding> = Vec::new();
-    for binding in bindings {
-        let with_shift = all.pop_if(|last| last.key == binding.key && last.modifiers.shift);
-        all.push(binding);
-        all.extend(with_shift);
-    }
-    all.into_iter()
-        .map(|binding| [binding.keys(), (binding.does)()])
+/// A line of the list of keys.
+pub(crate) struct KeyLine {
+    /// The keys; empty for an action without one.
+    pub keys: String,
+    /// What they do.
+    pub does: String,
+    /// The action, if it can be started from the list.
+    pub action: Option<Action>,
 }
 
-/// Draws the list of shortcuts.
-pub fn help(ctx: &egui::Context, state: &State, own: &[KeyBinding], actions: &mut Vec<Action>) {
-    if !state.is_help_open {
-        return;
+impl KeyLine {
+    fn only_listed([keys, does]: [String; 2]) -> Self {
+        Self {
+            keys,
+            does,
+            action: None,
+        }
     }
-    let modal = widgets::dialog(ctx, "help", |ui| {
-        ui.set_max_width(640.0);
-        let height = ui.spacing().interact_size.y;
-        ui.spacing_mut().interact_size.y = 24.0;
-        ui.heading(text!("shell-shortcuts"));
-        ui.add_space(space::SMALL);
-        let room = ctx.content_rect().height() - HELP_MARGIN;
-        let list = egui::Grid::new("shortcuts")
-            .num_columns(2)
-            .spacing(vec2(24.0, 6.0));
-        let is_operator = state.session.is_operator_view();
-        let has_pin = state.roles.pin.is_some();
-        // The scroll bar is beside the list, not over it.
-        ui.spacing_mut().scroll.floating_allocated_width = space::MEDIUM;
-        let list_area = ScrollArea::vertical().max_height(room);
-        list_area.min_scrolled_height(room).show(ui, |ui| {
-            list.show(ui, |ui| {
-                let own = if is_operator { &[][..] } else { own };
-                let own = listed(own.iter().copied());
-                let named = SHORTCUTS.iter().map(|shortcut| shortcut.binding);
-                let named = listed(named.filter(|key| !is_operator || is_operators(key, has_pin)));
-                let of_rail = RAIL_KEYS.into_iter().zip(WorkspaceKind::ALL);
-                let of_rail =
-                    of_rail.filter(|(_, kind)| !is_operator || roles::is_operators(*kind));
-                let of_rail =
-                    of_rail.map(|(key, workspace)| [key.name().to_owned(), workspace.title()]);
-                let is_enrolling = state.session.workspace == WorkspaceKind::Enrol;
-                let of_picture = is_enrolling.then(picture_keys).into_iter().flatten();
-                // Only the engineer measures.
-                let num = other_keys().len() - usize::from(is_operator);
-                let others = of_picture.chain(other_keys().into_iter().take(num));
-                for [keys, does] in named.chain(own).chain(of_rail).chain(others) {
-                    ui.label(RichText::new(keys).font(font::body_strong()));
-                    ui.weak(does);
-                    ui.end_row();
-                }
-            });
-        });
-        ui.spacing_mut().interact_size.y = height;
-        ui.add_space(space::MEDIUM);
-        widgets::default_button(ui, &text!("shell-close"), true)
+}
+
+/// The lines of these shortcuts, each before the one with Shift, which is matched first.
+fn listed(bindings: impl Iterator<Item = (KeyBinding, Action)>) -> impl Iterator<Item = KeyLine> {
+    let mut all: Vec<(KeyBinding, Action)> = Vec::new();
+    for (binding, action) in bindings {
+        let with_shift = all.pop_if(|(last, _)| last.key == binding.key && last.modifiers.shift);
+        all.push((binding, action));
+        all.extend(with_shift);
+    }
+    all.into_iter().map(|(binding, action)| KeyLine {
+        keys: binding.keys(),
+        does: (binding.does)(),
+        // Help is open, and nothing else is on top.
+        action: Some(action)
+            .filter(|action| !matches!(action, Action::ToggleHelp | Action::CloseTop)),
+    })
+}
+
+/// The keys that act in the view in front; `own` are those of the workspace.
+pub(crate) fn lines(state: &State, own: &[KeyBinding]) -> Vec<KeyLine> {
+    let is_operator = state.session.is_operator_view();
+    let has_pin = state.roles.pin.is_some();
+    let workspace = state.session.workspace;
+    let own = if is_operator { &[][..] } else { own };
+    let own = own.iter().copied().enumerate();
+    let own = listed(own.map(|(index, binding)| (binding, Action::Press(workspace, index))));
+    let named = SHORTCUTS.iter();
+    let named = named.map(|shortcut| (shortcut.binding, (shortcut.action)()));
+    let named = listed(named.filter(|(key, _)| !is_operator || is_operators(key, has_pin)));
+    let of_rail = RAIL_KEYS.into_iter().zip(WorkspaceKind::ALL);
+    let of_rail = of_rail.filter(|(_, kind)| !is_operator || roles::is_operators(*kind));
+    let of_rail = of_rail.map(|(key, workspace)| KeyLine {
+        keys: key.name().to_owned(),
+        does: workspace.title(),
+        action: Some(Action::GoTo(workspace)),
     });
-    let is_pressed_again = || ctx.input_mut(|input| input.consume_key(Modifiers::NONE, Key::F1));
-    if modal.inner || modal.should_close() || is_pressed_again() {
-        actions.push(Action::ToggleHelp);
-    }
+    let of_picture = (workspace == WorkspaceKind::Enrol).then(picture_keys);
+    // Only the engineer measures.
+    let num = other_keys().len() - usize::from(is_operator);
+    let others = other_keys().into_iter().take(num);
+    let others = of_picture.into_iter().flatten().chain(others);
+    let others = others.map(KeyLine::only_listed);
+    named.chain(own).chain(of_rail).chain(others).collect()
+}
+
+/// Actions without a key, which the search finds.
+pub(crate) fn without_keys(state: &State) -> Vec<KeyLine> {
+    let languages = Language::ALL.map(|language| {
+        let does = text!("shell-language-of", language = language.own_name());
+        (does, Action::Speak(language))
+    });
+    let of_engineer = [
+        (
+            text!("shell-play-recording"),
+            Action::Ask(DialogRequest::Recording),
+        ),
+        (
+            text!("shell-watch-folder"),
+            Action::Ask(DialogRequest::WatchedFolder),
+        ),
+        (
+            text!("shell-use-another-library"),
+            Action::Ask(DialogRequest::Library),
+        ),
+        (text!("expect-orders"), Action::Ask(DialogRequest::Orders)),
+        (text!("rack-says"), Action::Rack(RackAction::Toggle)),
+        (
+            text!("shell-set-up-cell"),
+            Action::Live(LiveAction::SetUp(Some(SimulatedSpec::default()))),
+        ),
+    ];
+    let of_engineer = of_engineer.into_iter();
+    let of_engineer = of_engineer.filter(|_| !state.session.is_operator_view());
+    let all = of_engineer.chain(languages);
+    all.map(|(does, action)| KeyLine {
+        keys: String::new(),
+        does,
+        action: Some(action),
+    })
+    .collect()
 }

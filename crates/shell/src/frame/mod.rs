@@ -1,4 +1,4 @@
-//! What is drawn around the workspaces: bars, rail, status bar, notices, the list of keys, and the question before the window closes.
+//! What is drawn around the workspaces: bars, rail, status bar, notices, and the question before the window closes; and the keys.
 
 pub mod bars;
 pub mod keys;

@@ -231,6 +231,10 @@ pub fn request(ask: DialogRequest) -> FileRequest {
             FileChoice::NewFile("rack.toml".into()),
         ),
         DialogRequest::Orders => (text!("expect-table"), FileChoice::File),
+        DialogRequest::ProblemReport => (
+            text!("help-report"),
+            FileChoice::NewFile("partsight-problem.zip".into()),
+        ),
     };
     FileRequest {
         title,
@@ -247,6 +251,7 @@ fn filters(ask: DialogRequest) -> Vec<FileFilter> {
             vec![(text!("rack-files"), &["toml"]), all_files()]
         }
         DialogRequest::Orders => vec![(text!("shell-csv-files"), &["csv"]), all_files()],
+        DialogRequest::ProblemReport => vec![(text!("help-zip-files"), &["zip"]), all_files()],
         DialogRequest::Scan
         | DialogRequest::Library
         | DialogRequest::Recording

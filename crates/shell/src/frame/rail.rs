@@ -15,7 +15,7 @@ use crate::{
 use ui::{
     language::text,
     theme::{Theme, font, space},
-    widgets::{fixed_panel, focus_ring},
+    widgets::{fixed_panel, focus_ring, pad_entries},
 };
 
 /// Draws the rail.
@@ -148,6 +148,7 @@ fn role_button(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
 }
 
 fn role_menu(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
+    pad_entries(ui);
     ui.set_min_width(250.0);
     let mut entry = |ui: &mut Ui, text: String, action: RoleAction| {
         if ui.button(text).clicked() {

@@ -31,7 +31,7 @@ use station::Doubt;
 use ui::{
     language::{advised, described, text},
     theme::{Theme, font, space},
-    widgets::{Mark, fitted_middle, fixed_panel, focus_ring, mark, text_width},
+    widgets::{Mark, fitted_middle, fixed_panel, focus_ring, mark, pad_entries, text_width},
 };
 
 /// Margins of the bar.
@@ -367,7 +367,10 @@ pub fn ui(ui: &mut Ui, state: &State, robot: &RobotCell, actions: &mut Vec<Actio
                 let size = vec2(item.topic.share() * per_share, space::TARGET);
                 let response = draw(ui, &item, size);
                 if item.topic == Topic::Source {
-                    Popup::menu(&response).show(|ui| source_menu::ui(ui, state, actions));
+                    Popup::menu(&response).show(|ui| {
+                        pad_entries(ui);
+                        source_menu::ui(ui, state, actions);
+                    });
                 }
                 let is_pressed = response.clicked();
                 response.on_hover_text(item.tooltip());

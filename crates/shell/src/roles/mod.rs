@@ -211,6 +211,7 @@ fn needs_engineer(action: &Action, has_pin: bool) -> bool {
         | Action::SwitchTheme
         | Action::Speak(_)
         | Action::ToggleHelp
+        | Action::EditHelp(_)
         | Action::Dismiss(_)
         | Action::DismissAll
         | Action::Reread(_)
@@ -232,7 +233,7 @@ fn asks_for_engineer(ask: DialogRequest, has_pin: bool) -> bool {
         | DialogRequest::Scan
         | DialogRequest::Recording
         | DialogRequest::WatchedFolder => has_pin,
-        DialogRequest::RecordTo => false,
+        DialogRequest::RecordTo | DialogRequest::ProblemReport => false,
     }
 }
 

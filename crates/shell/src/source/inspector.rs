@@ -35,7 +35,7 @@ pub struct Inspector {
     pub(super) task: Task<InspectorResult>,
     /// Loads the library at the start, and again after another program has changed it.
     pub loader: LibraryLoader,
-    pub(super) library_cache: LibraryCache,
+    pub(crate) library_cache: LibraryCache,
     /// Purpose of the newest run.
     pub(super) purpose: ReinspectionPurpose,
     /// Number of frames captured from the simulated cell.

@@ -2,14 +2,14 @@
 
 use std::mem::discriminant;
 
-use egui::{Button, Context, DragValue, Grid, RichText, ScrollArea, Ui, Vec2, vec2};
+use egui::{Button, Context, DragValue, Grid, RichText, ScrollArea, Ui, Vec2, WidgetInfo, vec2};
 
 use crate::{
     action::{Action, DialogRequest},
     inspection::source::{CellChoice, file_name},
     language::object,
     rack::RackAction,
-    session::Source,
+    session::{Session, Source},
     source::live::LiveAction,
     state::State,
 };
@@ -21,7 +21,7 @@ use simulate::{Clutter, ObjectKind, PartKind, Side};
 use ui::{
     language::text,
     theme::{font, space},
-    widgets::{self, drop_down, shortened, show_scroll_bar, text_button},
+    widgets::{self, drop_down, menu_button, shortened, show_scroll_bar, text_button},
 };
 
 /// Width of a column, logical pixels.
@@ -37,7 +37,11 @@ pub(crate) fn ui(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
     // A menu is less high than the window by itself.
     ui.set_max_height(height);
     ui.horizontal_top(|ui| {
-        column(ui, height, "cell", |ui| simulated(ui, state, actions));
+        column(ui, height, "sources", |ui| {
+            sources(ui, &state.session, actions);
+            ui.separator();
+            simulated(ui, &state.session, height, actions);
+        });
         ui.separator();
         column(ui, height, "others", |ui| others(ui, state, actions));
     });
@@ -89,9 +93,9 @@ fn heading(ui: &mut Ui, text: String) {
     ui.label(RichText::new(text).font(font::heading()));
 }
 
-fn simulated(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
-    heading(ui, text!("shell-simulated-cell"));
-    let (is_set_up, spec) = match &state.session.source {
+/// Draws the simulated cell: what may hang in it is in a menu of its own.
+fn simulated(ui: &mut Ui, session: &Session, height: f32, actions: &mut Vec<Action>) {
+    let (is_set_up, spec) = match &session.source {
         Source::Camera(spec) => match &**spec {
             SourceSpec::Simulated(spec) => (true, spec.clone()),
             _ => (false, SimulatedSpec::default()),
@@ -99,6 +103,21 @@ fn simulated(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
         Source::Cell(choice) => (false, choice.followed()),
         Source::File(_) | Source::Scan(_) => (false, SimulatedSpec::default()),
     };
+    let title = text!("shell-simulated-cell");
+    let menu = menu_button(ui, &title, |ui| {
+        column(ui, height, "cell", |ui| {
+            for choice in CellChoice::all() {
+                let is_chosen = session.source == Source::Cell(choice);
+                if ui.selectable_label(is_chosen, choice.title()).clicked() {
+                    actions.push(Action::UseCell(choice));
+                    ui.close();
+                }
+            }
+        });
+    });
+    let is_chosen = matches!(session.source, Source::Cell(_));
+    let button = menu.response;
+    button.widget_info(|| WidgetInfo::selected(egui::Role::Button, true, is_chosen, &title));
     if ui
         .selectable_label(is_set_up, text!("shell-set-up-cell"))
         .clicked()
@@ -106,17 +125,11 @@ fn simulated(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
         actions.push(Action::Live(LiveAction::SetUp(Some(spec))));
         ui.close();
     }
-    for choice in CellChoice::all() {
-        let is_chosen = state.session.source == Source::Cell(choice);
-        if ui.selectable_label(is_chosen, choice.title()).clicked() {
-            actions.push(Action::UseCell(choice));
-            ui.close();
-        }
-    }
 }
 
-fn others(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
-    let camera = match &state.session.source {
+/// Draws cameras, recordings, folders and files.
+fn sources(ui: &mut Ui, session: &Session, actions: &mut Vec<Action>) {
+    let camera = match &session.source {
         Source::Camera(spec) => Some(&**spec),
         Source::Cell(_) | Source::File(_) | Source::Scan(_) => None,
     };
@@ -144,7 +157,7 @@ fn others(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
             DialogRequest::Scene,
         ),
         (
-            matches!(state.session.source, Source::Scan(_)),
+            matches!(session.source, Source::Scan(_)),
             text!("shell-open-scan"),
             text!("shell-open-scan-says"),
             DialogRequest::Scan,
@@ -159,7 +172,10 @@ fn others(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
             ui.close();
         }
     }
-    ui.separator();
+}
+
+/// Draws what goes with a source, and the files that were opened last.
+fn others(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
     heading(ui, text!("shell-average-depth"));
     ui.horizontal(|ui| {
         for num in AVERAGED {

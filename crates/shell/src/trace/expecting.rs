@@ -36,7 +36,7 @@ use ui::{
     language::text,
     theme::{Theme, font, space},
     user_error::UserError,
-    widgets::{fitted_middle, show_scroll_bar, wrapped},
+    widgets::{fitted_middle, pad_entries, show_scroll_bar, wrapped},
 };
 
 impl Session {
@@ -316,9 +316,10 @@ pub fn ui(ui: &mut Ui, session: &Session, actions: &mut Vec<Action>) {
         };
         let button = Button::new(format!("{shown} ▼")).min_size(Vec2::splat(space::TARGET));
         let config = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
-        let (button, _) = MenuButton::from_button(button)
-            .config(config)
-            .ui(ui, |ui| menu(ui, session, actions));
+        let (button, _) = MenuButton::from_button(button).config(config).ui(ui, |ui| {
+            pad_entries(ui);
+            menu(ui, session, actions);
+        });
         button.widget_info(|| {
             WidgetInfo::labeled(egui::Role::Button, true, format!("{name}: {title}"))
         });

@@ -50,9 +50,15 @@ not-enrolled-background = die gefundene Fläche ist vielleicht Hintergrund: { ba
     .advice = Die Fläche wählen, die das Teil ist
 not-enrolled-no-such-surface = die Szene hat keine Fläche { $wanted }; { $found } wurden gefunden
     .advice = Eine der gefundenen Flächen wählen
-not-enrolled-too-few-points = die Punktwolke hat { $found } Punkte, mindestens { $needed } sind erforderlich
+not-enrolled-too-few-points = { $found ->
+        [one] die Punktwolke hat { $found } Punkt, mindestens { $needed } sind erforderlich
+       *[other] die Punktwolke hat { $found } Punkte, mindestens { $needed } sind erforderlich
+    }
     .advice = Das Teil aus der Nähe aufnehmen oder die Punktwolke mit mehr Punkten exportieren
-not-enrolled-too-few-kept = { $found } Punkte werden behalten, mindestens { $needed } sind erforderlich
+not-enrolled-too-few-kept = { $found ->
+        [one] { $found } Punkt wird behalten, mindestens { $needed } sind erforderlich
+       *[other] { $found } Punkte werden behalten, mindestens { $needed } sind erforderlich
+    }
     .advice = Entferntes zurückholen: „Rückgängig“, „Zurücksetzen“ oder „Ergänzen“
 not-enrolled-no-part-in-scan = in keiner der { $num_frames } Aufnahmen wurde ein Teil gefunden
     .advice = Das Teil mit „Ergänzen“ und Box oder Lasso behalten oder mindestens 10 cm vor dem Hintergrund aufnehmen

@@ -2,13 +2,19 @@
 
 ## Why there is no pose
 
-pose-too-few-points = die Punktwolke ({ cloud-role }) hat { $found } Punkte, mindestens { $needed } sind erforderlich
+pose-too-few-points = { $found ->
+        [one] die Punktwolke ({ cloud-role }) hat { $found } Punkt, mindestens { $needed } sind erforderlich
+       *[other] die Punktwolke ({ cloud-role }) hat { $found } Punkte, mindestens { $needed } sind erforderlich
+    }
     .advice = Das Teil aus geringerer Entfernung aufnehmen oder neu einlernen
 pose-degenerate = die Punktwolke ({ cloud-role }) lässt die Pose offen: Ihre Punkte liegen auf einer Linie oder einem Fleck ({ FIXED($width_m, 5) } m breit)
     .advice = Eine Punktwolke verwenden, die eine Fläche zeigt, keine Linie und keinen einzelnen Fleck
 pose-one-sided-pairs = die nächsten Punkte aller { $num_pairs } Paare liegen auf einem Fleck oder einer Linie, Abstand { MM($rms_m, 1) } mm
     .advice = { pose-no-overlap.advice }
-pose-no-overlap = die Punktwolken haben nur { $found } Punktpaare innerhalb von { MM($reach_m, 1) } mm, mindestens { $needed } sind erforderlich
+pose-no-overlap = { $found ->
+        [one] die Punktwolken haben nur { $found } Punktpaar innerhalb von { MM($reach_m, 1) } mm, mindestens { $needed } sind erforderlich
+       *[other] die Punktwolken haben nur { $found } Punktpaare innerhalb von { MM($reach_m, 1) } mm, mindestens { $needed } sind erforderlich
+    }
     .advice = Prüfen, ob beide Punktwolken dasselbe Teil in Metern zeigen
 pose-sizes-differ = eine Punktwolke ist { FIXED($ratio, 0) }-mal so groß wie die andere
     .advice = Beide in Metern exportieren: Eine scheint in Millimetern zu sein

@@ -166,7 +166,10 @@ refusal-behind-camera = { PERCENT($share, 1) } % der Punkte liegen hinter der Ka
     .kind = Punkte hinter der Kamera
     .short = { short-damaged-file }
     .next = { step-check-camera-next }
-refusal-surplus-bytes = nach dem letzten Punkt der Datei folgen { $num } Bytes: Sie ist beschädigt und damit auch, was { $part } sein könnte
+refusal-surplus-bytes = { $num ->
+        [one] nach dem letzten Punkt der Datei folgt { $num } Byte: Sie ist beschädigt und damit auch, was { $part } sein könnte
+       *[other] nach dem letzten Punkt der Datei folgen { $num } Bytes: Sie ist beschädigt und damit auch, was { $part } sein könnte
+    }
     .advice = Die Datei aus dem Ursprungsprogramm erneut kopieren oder exportieren
     .kind = Datei beschädigt
     .short = { short-damaged-file }
@@ -207,7 +210,10 @@ refusal-poses-apart = die Posen von { $part } liegen in { $num_agreeing } von { 
 
 ## There is no part
 
-refusal-too-few-points = die Szene hat { $found } Messwerte, mindestens { $needed } sind erforderlich
+refusal-too-few-points = { $found ->
+        [one] die Szene hat { $found } Messwert, mindestens { $needed } sind erforderlich
+       *[other] die Szene hat { $found } Messwerte, mindestens { $needed } sind erforderlich
+    }
     .advice = Prüfen, ob die Kamera angeschlossen, nicht verdeckt und 0.6 bis 3 m vom Teil entfernt ist, dann erneut aufnehmen
     .short = Die Kamera sieht fast nichts
     .step = { step-uncover-camera }

@@ -39,7 +39,10 @@ servo-singular = der Roboter wurde angehalten, weil der Arm einer Singularität 
     .advice = Mit einer anderen Stellung des Arms starten oder das Teil anders aufhängen
 servo-uncertain = das Ziel ist erreicht, aber nicht so genau wie verlangt: { MM($shift_m, 1) } mm und { DEGREES($turn_rad, 2) }° mit der Unsicherheit, erlaubt sind { MM($most_m, 1) } mm und { DEGREES($most_rad, 2) }°
     .advice = Die Kamera das ganze Teil aus größerer Nähe sehen lassen, für die Düse als Ziel neu kalibrieren oder die Toleranz erhöhen
-servo-not-settling = der Roboter wurde angehalten, weil nach { $num_rounds } Korrekturen { MM($shift_m, 1) } mm und { DEGREES($turn_rad, 2) }° bleiben
+servo-not-settling = { $num_rounds ->
+        [one] der Roboter wurde angehalten, weil nach { $num_rounds } Korrektur { MM($shift_m, 1) } mm und { DEGREES($turn_rad, 2) }° bleiben
+       *[other] der Roboter wurde angehalten, weil nach { $num_rounds } Korrekturen { MM($shift_m, 1) } mm und { DEGREES($turn_rad, 2) }° bleiben
+    }
     .advice = Das Teil ruhig hängen lassen oder das Totband erhöhen; bewegt sich nichts, die Kalibrierung prüfen
 servo-time-over = der Roboter wurde angehalten, weil das Ziel nicht innerhalb von { FIXED($limit_s, 0) } s erreicht wurde
     .advice = Näher am Ziel starten oder die längste Zeit erhöhen

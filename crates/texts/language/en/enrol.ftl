@@ -52,9 +52,15 @@ not-enrolled-background = the surface found may be background: { background-sign
     .command-advice = Select the surface that is the part with --segment N, or choose it in the window's Enrol workspace
 not-enrolled-no-such-surface = the scene has no surface { $wanted }; { $found } were found
     .advice = Choose one of those found
-not-enrolled-too-few-points = the cloud has { $found } points, at least { $needed } are needed
+not-enrolled-too-few-points = { $found ->
+        [one] the cloud has { $found } point, at least { $needed } are needed
+       *[other] the cloud has { $found } points, at least { $needed } are needed
+    }
     .advice = Capture the part from closer, or export the cloud with more points
-not-enrolled-too-few-kept = { $found } points are kept, at least { $needed } are needed
+not-enrolled-too-few-kept = { $found ->
+        [one] { $found } point is kept, at least { $needed } are needed
+       *[other] { $found } points are kept, at least { $needed } are needed
+    }
     .advice = Take back what was dropped: Undo, Reset, or Add
 not-enrolled-no-part-in-scan = no part was found in any of the { $num_frames } frames
     .advice = Keep the part with Add and a box or a lasso, or capture it at least 10 cm in front of the background

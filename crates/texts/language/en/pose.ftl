@@ -2,13 +2,19 @@
 
 ## Why there is no pose
 
-pose-too-few-points = the { cloud-role } cloud has { $found } points, at least { $needed } are needed
+pose-too-few-points = { $found ->
+        [one] the { cloud-role } cloud has { $found } point, at least { $needed } are needed
+       *[other] the { cloud-role } cloud has { $found } points, at least { $needed } are needed
+    }
     .advice = Capture the part again from closer, or enrol it again
 pose-degenerate = the { cloud-role } cloud does not determine the pose: its points lie on a line or a spot ({ FIXED($width_m, 5) } m wide)
     .advice = Use a cloud that shows a surface, not a line or a single spot
 pose-one-sided-pairs = the closest points of all { $num_pairs } pairs lie on a spot or a line, { MM($rms_m, 1) } mm apart
     .advice = { pose-no-overlap.advice }
-pose-no-overlap = the clouds have only { $found } pairs of points within { MM($reach_m, 1) } mm, at least { $needed } are needed
+pose-no-overlap = { $found ->
+        [one] the clouds have only { $found } pair of points within { MM($reach_m, 1) } mm, at least { $needed } are needed
+       *[other] the clouds have only { $found } pairs of points within { MM($reach_m, 1) } mm, at least { $needed } are needed
+    }
     .advice = Check that both clouds show the same part in metres
 pose-sizes-differ = one cloud is { FIXED($ratio, 0) } times as large as the other
     .advice = Export both in metres: one of them looks like millimetres

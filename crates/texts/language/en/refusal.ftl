@@ -168,7 +168,10 @@ refusal-behind-camera = { PERCENT($share, 1) } % of the points lie behind the ca
     .kind = Points behind the camera
     .short = { short-damaged-file }
     .next = { step-check-camera-next }
-refusal-surplus-bytes = { $num } bytes follow the last point of the file: it is damaged, and with it what may be { $part }
+refusal-surplus-bytes = { $num ->
+        [one] { $num } byte follows the last point of the file: it is damaged, and with it what may be { $part }
+       *[other] { $num } bytes follow the last point of the file: it is damaged, and with it what may be { $part }
+    }
     .advice = Copy or export the file again from the program that made it
     .kind = Damaged file
     .short = { short-damaged-file }
@@ -209,7 +212,10 @@ refusal-poses-apart = the poses of { $part } agree in { $num_agreeing } of { $nu
 
 ## There is no part
 
-refusal-too-few-points = the scene has { $found } readings, at least { $needed } are needed
+refusal-too-few-points = { $found ->
+        [one] the scene has { $found } reading, at least { $needed } are needed
+       *[other] the scene has { $found } readings, at least { $needed } are needed
+    }
     .advice = Check that the camera is connected, uncovered and 0.6 to 3 m from the part, then capture again
     .short = The camera sees hardly anything
     .step = { step-uncover-camera }

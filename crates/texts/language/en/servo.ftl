@@ -39,7 +39,10 @@ servo-singular = the robot was stopped because the arm would come near to a sing
     .advice = Start with another configuration of the arm, or hang the part elsewhere
 servo-uncertain = the target is reached, but not as exactly as required: { MM($shift_m, 1) } mm and { DEGREES($turn_rad, 2) }° with the bounds, allowed { MM($most_m, 1) } mm and { DEGREES($most_rad, 2) }°
     .advice = Let the camera see the part whole and from nearer, calibrate again where the nozzle is the target, or raise the tolerance
-servo-not-settling = the robot was stopped because { MM($shift_m, 1) } mm and { DEGREES($turn_rad, 2) }° are left after { $num_rounds } corrections
+servo-not-settling = { $num_rounds ->
+        [one] the robot was stopped because { MM($shift_m, 1) } mm and { DEGREES($turn_rad, 2) }° are left after { $num_rounds } correction
+       *[other] the robot was stopped because { MM($shift_m, 1) } mm and { DEGREES($turn_rad, 2) }° are left after { $num_rounds } corrections
+    }
     .advice = Let the part hang still, or raise the deadband; if nothing moves, check the calibration
 servo-time-over = the robot was stopped because the target was not reached within { FIXED($limit_s, 0) } s
     .advice = Start nearer to the target, or raise the longest time

@@ -50,9 +50,15 @@ not-enrolled-background = la superficie encontrada puede ser fondo: { background
     .advice = Elegir la superficie que es la pieza
 not-enrolled-no-such-surface = la escena no tiene superficie { $wanted }; se encontraron { $found }
     .advice = Elegir una de las encontradas
-not-enrolled-too-few-points = la nube tiene { $found } puntos; se necesitan al menos { $needed }
+not-enrolled-too-few-points = { $found ->
+        [one] la nube tiene { $found } punto; se necesitan al menos { $needed }
+       *[other] la nube tiene { $found } puntos; se necesitan al menos { $needed }
+    }
     .advice = Capturar la pieza desde más cerca, o exportar la nube con más puntos
-not-enrolled-too-few-kept = se conservan { $found } puntos; se necesitan al menos { $needed }
+not-enrolled-too-few-kept = { $found ->
+        [one] se conserva { $found } punto; se necesitan al menos { $needed }
+       *[other] se conservan { $found } puntos; se necesitan al menos { $needed }
+    }
     .advice = Recuperar lo que se quitó: Deshacer, Restablecer o Añadir
 not-enrolled-no-part-in-scan = no se encontró ninguna pieza en ninguna de las { $num_frames } tomas
     .advice = Conservar la pieza con Añadir y un recuadro o un lazo, o capturarla a 10 cm o más del fondo

@@ -2,13 +2,19 @@
 
 ## Why there is no pose
 
-pose-too-few-points = la nube de { cloud-role } tiene { $found } puntos; se necesitan al menos { $needed }
+pose-too-few-points = { $found ->
+        [one] la nube de { cloud-role } tiene { $found } punto; se necesitan al menos { $needed }
+       *[other] la nube de { cloud-role } tiene { $found } puntos; se necesitan al menos { $needed }
+    }
     .advice = Capturar la pieza desde más cerca, o registrarla de nuevo
 pose-degenerate = la nube de { cloud-role } deja la pose libre: sus puntos están en una línea o un punto ({ FIXED($width_m, 5) } m de ancho)
     .advice = Usar una nube que muestre una superficie, no una línea ni un único punto
 pose-one-sided-pairs = los puntos más próximos de los { $num_pairs } pares están en un punto o una línea, a { MM($rms_m, 1) } mm
     .advice = { pose-no-overlap.advice }
-pose-no-overlap = las nubes solo tienen { $found } pares de puntos a menos de { MM($reach_m, 1) } mm; se necesitan al menos { $needed }
+pose-no-overlap = { $found ->
+        [one] las nubes solo tienen { $found } par de puntos a menos de { MM($reach_m, 1) } mm; se necesitan al menos { $needed }
+       *[other] las nubes solo tienen { $found } pares de puntos a menos de { MM($reach_m, 1) } mm; se necesitan al menos { $needed }
+    }
     .advice = Comprobar que ambas nubes muestran la misma pieza en metros
 pose-sizes-differ = una nube es { FIXED($ratio, 0) } veces mayor que la otra
     .advice = Exportar ambas en metros: una parece estar en milímetros

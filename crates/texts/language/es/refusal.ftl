@@ -166,7 +166,10 @@ refusal-behind-camera = el { PERCENT($share, 1) } % de los puntos está detrás 
     .kind = Puntos detrás de la cámara
     .short = { short-damaged-file }
     .next = { step-check-camera-next }
-refusal-surplus-bytes = tras el último punto del archivo siguen { $num } bytes: está dañado, y con él lo que puede ser { $part }
+refusal-surplus-bytes = { $num ->
+        [one] tras el último punto del archivo sigue { $num } byte: está dañado, y con él lo que puede ser { $part }
+       *[other] tras el último punto del archivo siguen { $num } bytes: está dañado, y con él lo que puede ser { $part }
+    }
     .advice = Copiar o exportar de nuevo el archivo desde el programa que lo creó
     .kind = Archivo dañado
     .short = { short-damaged-file }
@@ -207,7 +210,10 @@ refusal-poses-apart = las poses de { $part } coinciden en { $num_agreeing } de {
 
 ## There is no part
 
-refusal-too-few-points = la escena tiene { $found } lecturas; se necesitan al menos { $needed }
+refusal-too-few-points = { $found ->
+        [one] la escena tiene { $found } lectura; se necesitan al menos { $needed }
+       *[other] la escena tiene { $found } lecturas; se necesitan al menos { $needed }
+    }
     .advice = Comprobar que la cámara está conectada, descubierta y a entre 0.6 y 3 m de la pieza, y volver a capturar
     .short = La cámara apenas ve nada
     .step = { step-uncover-camera }

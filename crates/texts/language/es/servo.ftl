@@ -39,7 +39,10 @@ servo-singular = el robot se detuvo porque el brazo se acercaría a una singular
     .advice = Empiece con otra configuración del brazo o cuelgue la pieza en otro sitio
 servo-uncertain = se alcanzó el objetivo, pero no con la exactitud exigida: { MM($shift_m, 1) } mm y { DEGREES($turn_rad, 2) }° con la incertidumbre; se permiten { MM($most_m, 1) } mm y { DEGREES($most_rad, 2) }°
     .advice = Haga que la cámara vea la pieza entera y de más cerca, calibre de nuevo si el objetivo es la boquilla o aumente la tolerancia
-servo-not-settling = el robot se detuvo porque quedan { MM($shift_m, 1) } mm y { DEGREES($turn_rad, 2) }° después de { $num_rounds } correcciones
+servo-not-settling = { $num_rounds ->
+        [one] el robot se detuvo porque quedan { MM($shift_m, 1) } mm y { DEGREES($turn_rad, 2) }° después de { $num_rounds } corrección
+       *[other] el robot se detuvo porque quedan { MM($shift_m, 1) } mm y { DEGREES($turn_rad, 2) }° después de { $num_rounds } correcciones
+    }
     .advice = Deje la pieza quieta o aumente la banda muerta; si nada se mueve, compruebe la calibración
 servo-time-over = el robot se detuvo porque no alcanzó el objetivo en { FIXED($limit_s, 0) } s
     .advice = Empiece más cerca del objetivo o aumente el tiempo máximo

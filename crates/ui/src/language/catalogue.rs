@@ -5,7 +5,7 @@ use texts::{Catalogue, Files, Language};
 
 macro_rules! files {
     ($language:literal) => {
-        files!($language: "align" "coat" "compare" "enrol" "expect" "history" "inspect" "live" "operator" "paint" "program" "rack" "results" "robot" "servoing" "shell" "shots" "view")
+        files!($language: "align" "coat" "compare" "enrol" "expect" "help" "history" "inspect" "live" "operator" "paint" "program" "rack" "results" "robot" "servoing" "shell" "shots" "view")
     };
     ($language:literal: $($area:literal)+) => {
         &[$(($area, include_str!(concat!("../../../../assets/language/", $language, "/", $area, ".ftl")))),+]

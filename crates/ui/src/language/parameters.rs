@@ -44,6 +44,20 @@ fn coat_group_id(group: CoatGroup) -> &'static str {
     }
 }
 
+/// Returns the title of one of the program's coats; the name of any other.
+pub fn coat_title(name: &str) -> String {
+    if BUILT_IN_COATS.contains(&name) {
+        translated(&coat_title_id(name), &name.replace('_', " "))
+    } else {
+        name.to_owned()
+    }
+}
+
+/// The message with the title of the program's coat of this name.
+fn coat_title_id(name: &str) -> String {
+    format!("coat-title-{}", name.replace('_', "-"))
+}
+
 /// Translates the notes of the program's coats, which coats made from them keep; returns any others unchanged.
 pub fn coat_notes(notes: &str) -> String {
     static KNOWN: LazyLock<Vec<(&str, String)>> = LazyLock::new(|| {
@@ -163,10 +177,12 @@ pub(super) fn message_ids() -> Vec<String> {
     let of_paint = of_table::<Coat>().chain(of_table::<ProgramParams>());
     let groups = Group::ALL.map(group_id).into_iter();
     let groups = groups.chain(CoatGroup::ALL.map(coat_group_id));
+    let titles = BUILT_IN_COATS.map(coat_title_id);
     let notes = BUILT_IN_COATS.map(coat_notes_id);
     of_inspection
         .chain(of_paint)
         .chain(groups.map(str::to_owned))
+        .chain(titles)
         .chain(notes)
         .collect()
 }
@@ -190,12 +206,15 @@ mod tests {
     }
 
     #[test]
-    fn the_notes_of_the_programs_coats_are_translated() {
+    fn titles_and_notes_of_the_programs_coats_are_translated() {
         let coats = BUILT_IN_COATS.map(|name| built_in_coat(name).expect("a coat"));
         for coat in &coats {
             assert_eq!(coat_notes(&coat.notes), coat.notes);
         }
+        assert_eq!(coat_title("base_coat"), "base coat");
         Language::Spanish.make_current();
+        assert_eq!(coat_title("base_coat"), "base de color");
+        assert_eq!(coat_title("roof_coat"), "roof_coat");
         for coat in &coats {
             assert_ne!(coat_notes(&coat.notes), coat.notes);
         }

@@ -69,6 +69,8 @@ pub struct ViewCamera {
     pitch: f32,
     /// Kept until a view has something to fit to.
     pending_fit: Option<FitRequest>,
+    /// True from a fit until a person turns, shifts or zooms.
+    is_fitted: bool,
 }
 
 impl Default for ViewCamera {
@@ -80,6 +82,7 @@ impl Default for ViewCamera {
             yaw: 0.0,
             pitch: 0.0,
             pending_fit: Some(FitRequest::Focus),
+            is_fitted: false,
         }
     }
 }
@@ -184,6 +187,12 @@ impl ViewCamera {
             camera.distance = distance;
             camera.pending_fit = None;
         });
+        self.is_fitted = true;
+    }
+
+    /// True if nobody has turned, shifted or zoomed since the last fit.
+    pub fn is_fitted(&self) -> bool {
+        self.is_fitted
     }
 
     /// Requests a fit by the next view shown, so that the caller need not know its size.
@@ -228,6 +237,7 @@ impl ViewCamera {
     fn change(&mut self, apply: impl FnOnce(&mut Self)) {
         let before = *self;
         apply(self);
+        self.is_fitted = false;
         if !(self.target.is_finite() && self.distance.is_finite()) {
             *self = before;
         }

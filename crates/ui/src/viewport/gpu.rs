@@ -129,6 +129,19 @@ impl ViewportGpu {
         }))
     }
 
+    /// Name, interface and driver of the graphics adapter, for people.
+    pub fn adapter(&self) -> String {
+        let wgpu::AdapterInfo {
+            name,
+            backend,
+            driver,
+            driver_info,
+            ..
+        } = self.0.device.adapter_info();
+        let words = format!("{name}, {backend:?}, {driver} {driver_info}");
+        words.trim_end_matches([',', ' ']).to_owned()
+    }
+
     /// The first error of the device, or its loss. Views then show it as text.
     pub fn problem(&self) -> Option<ViewError> {
         lock(&self.0.problem).clone()

@@ -15,7 +15,9 @@ use ui::{
     language::text,
     theme::{Theme, font, space},
     viewport::ViewDirection,
-    widgets::{button_width, fitted_middle, labelled, menu_list, shortened, text_button},
+    widgets::{
+        button_width, fitted_middle, labelled, menu_button, menu_list, shortened, text_button,
+    },
 };
 
 /// Longest file name shown, characters.
@@ -79,7 +81,7 @@ pub(super) fn ui(
 
 /// Menu of view directions, for all views at once.
 fn look_menu(ui: &mut Ui) -> Option<ViewDirection> {
-    let menu = ui.menu_button(format!("{} ▼", text!("shell-view")), |ui| {
+    let menu = menu_button(ui, format!("{} ▼", text!("shell-view")), |ui| {
         let mut choices = ViewDirection::choices().into_iter();
         let chosen = choices.find(|(text, _)| ui.button(text).clicked());
         if chosen.is_some() {
@@ -137,7 +139,7 @@ fn part_menu(ui: &mut Ui, align: &AlignState, session: &Session, actions: &mut V
     let room = ui.available_width() - button_width(ui, &named(""));
     let font = TextStyle::Button.resolve(ui.style());
     let shown = fitted_middle(ui.painter(), &shortened(&title, 24), &font, room);
-    let menu = ui.menu_button(named(&shown), |ui| {
+    let menu = menu_button(ui, named(&shown), |ui| {
         ui.set_min_width(200.0);
         menu_list(ui, |ui| {
             for part in &library.parts {

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use egui::{Align2, Rect, RichText, Ui, UiBuilder, pos2, vec2};
+use egui::{Align2, Rect, RichText, Ui, UiBuilder, Vec2, pos2, vec2};
 
 use super::{
     pair::Pair,
@@ -41,6 +41,8 @@ pub(super) struct LinkedViews {
     has_focus: bool,
     /// The pair shown.
     shows: Option<Arc<Pair>>,
+    /// Size of a view when they were fitted, logical pixels.
+    size: Vec2,
 }
 
 struct View {
@@ -61,6 +63,7 @@ impl LinkedViews {
             camera: ViewCamera::default(),
             has_focus: false,
             shows: None,
+            size: Vec2::ZERO,
         }
     }
 
@@ -111,21 +114,23 @@ impl LinkedViews {
         direction.apply(&mut self.camera);
     }
 
-    /// Shows a new pair; its points are shared, not copied.
-    fn put_in(&mut self, shown: &MethodComparison, size: egui::Vec2) {
+    /// Shows a new pair; its points are shared, not copied. In a window of another size, the views are fitted again, unless a
+    /// person has turned them.
+    fn put_in(&mut self, shown: &MethodComparison, size: Vec2) {
         let pair = &shown.pair;
-        if self
-            .shows
-            .as_ref()
-            .is_some_and(|known| Arc::ptr_eq(known, pair))
-        {
+        let known = self.shows.as_ref();
+        let is_new = known.is_none_or(|known| !Arc::ptr_eq(known, pair));
+        let is_resized = std::mem::replace(&mut self.size, size) != size;
+        if !is_new && !(is_resized && self.camera.is_fitted()) {
             return;
         }
-        for view in &mut self.views {
-            // Smaller points first, so that both clouds show where they coincide.
-            view.scene.points = vec![pair.source_points.clone(), pair.target_points.clone()];
+        if is_new {
+            for view in &mut self.views {
+                // Smaller points first, so that both clouds show where they coincide.
+                view.scene.points = vec![pair.source_points.clone(), pair.target_points.clone()];
+            }
+            self.shows = Some(Arc::clone(pair));
         }
-        self.shows = Some(Arc::clone(pair));
         // Fit to the target alone: from T1 the source starts far off.
         let target = ViewScene {
             points: vec![pair.target_points.clone()],

@@ -9,7 +9,9 @@ use shell::session::{Session, verdict_mark};
 use ui::{
     language::{keys, text},
     theme::{Theme, font, space},
-    widgets::{Mark, labelled, line_edit, line_mark, menu_list, shortened, text_button},
+    widgets::{
+        Mark, labelled, line_edit, line_mark, menu_button, menu_list, shortened, text_button,
+    },
 };
 
 /// A bar wider than this has room for a long remark.
@@ -47,7 +49,7 @@ pub(super) fn ui(
 }
 
 fn menu(ui: &mut Ui, title: &str, hover: String, content: &mut dyn FnMut(&mut Ui)) {
-    ui.menu_button(title, |ui| {
+    menu_button(ui, title, |ui| {
         ui.set_min_width(220.0);
         menu_list(ui, content);
     })
@@ -157,7 +159,7 @@ fn truth_menu(
         Some(_) => truth_title(chosen, library),
         None => text!("compare-choose-truth"),
     };
-    let menu = ui.menu_button(format!("{title} ▼"), |ui| {
+    let menu = menu_button(ui, format!("{title} ▼"), |ui| {
         let first = [Some(Truth::NotEnrolled), Some(Truth::Nothing)];
         truth_entries(ui, chosen, &first, library, |truth| {
             acts.extend(truth.map(CompareAction::SetTruth));

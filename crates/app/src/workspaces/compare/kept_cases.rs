@@ -19,11 +19,14 @@ use ui::{
     language::{described, text},
     theme::{ROUNDING, Theme, font, space},
     user_error::UserError,
-    widgets::{focus_ring, labelled, shortened, text_button},
+    widgets::{focus_ring, labelled, shortened, show_scroll_bar, text_button},
 };
 
-/// Width of the rows' names.
+/// Width of the rows' names, and what they are left in a narrow window, logical pixels.
 const NAMES_WIDTH_PX: f32 = 118.0;
+const NARROW_NAMES_WIDTH_PX: f32 = 68.0;
+/// Width of a letter of these names, logical pixels.
+const LETTER_WIDTH_PX: f32 = 6.9;
 /// Height of the columns' names where the columns are narrow.
 const UPRIGHT_NAME_HEIGHT_PX: f32 = 104.0;
 /// Least width of a column.
@@ -65,6 +68,8 @@ pub(super) fn ui(
         changes_list(ui, changes, shown, acts);
         return;
     }
+    // Without it, a matrix higher than the room looks cut.
+    show_scroll_bar(ui);
     ScrollArea::both()
         .id_salt("cases")
         .auto_shrink(false)
@@ -313,8 +318,11 @@ fn matrix(ui: &mut Ui, matrix: &Matrix, shown: &LibraryView, acts: &mut Vec<Comp
     let rows = matrix.rows.iter();
     let rows: Vec<String> = rows.map(|truth| row_title(truth, shown)).collect();
     let num_columns = matrix.columns.len().max(1);
-    let room = ui.available_width() - NAMES_WIDTH_PX - 16.0;
-    let width = (room / num_columns as f32).clamp(NARROWEST, 140.0);
+    let room = ui.available_width() - 16.0;
+    // The columns keep their width as long as the names have some.
+    let names =
+        (room - NARROWEST * num_columns as f32).clamp(NARROW_NAMES_WIDTH_PX, NAMES_WIDTH_PX);
+    let width = ((room - names) / num_columns as f32).clamp(NARROWEST, 140.0);
     let height = space::TARGET + 2.0;
     let head = if width > WIDE_COLUMN_PX {
         22.0
@@ -322,12 +330,12 @@ fn matrix(ui: &mut Ui, matrix: &Matrix, shown: &LibraryView, acts: &mut Vec<Comp
         UPRIGHT_NAME_HEIGHT_PX
     };
     let size = vec2(
-        NAMES_WIDTH_PX + width * num_columns as f32,
+        names + width * num_columns as f32,
         head + height * matrix.rows.len() as f32,
     );
     let (all, _) = ui.allocate_exact_size(size, Sense::hover());
     let painter = ui.painter().clone();
-    let origin = all.min + vec2(NAMES_WIDTH_PX, head);
+    let origin = all.min + vec2(names, head);
     for (column, name) in columns.iter().enumerate() {
         let middle = origin.x + width * (column as f32 + 0.5);
         let colour = theme.weak_text;
@@ -347,7 +355,7 @@ fn matrix(ui: &mut Ui, matrix: &Matrix, shown: &LibraryView, acts: &mut Vec<Comp
         painter.text(
             at,
             Align2::RIGHT_CENTER,
-            shortened(name, 17),
+            shortened(name, (names / LETTER_WIDTH_PX) as usize),
             font::small(),
             theme.text,
         );

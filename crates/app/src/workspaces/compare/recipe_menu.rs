@@ -23,8 +23,8 @@ use ui::{
     language::{Message, described, library_text, parameters, text},
     theme::{Theme, font, space},
     widgets::{
-        self, button_width, labelled, line_edit, sentence, shortened, show_scroll_bar, text_button,
-        wrapped,
+        self, button_width, labelled, line_edit, menu_button, sentence, shortened, show_scroll_bar,
+        text_button, wrapped,
     },
 };
 
@@ -100,65 +100,64 @@ fn menu(ui: &mut Ui, compare: &CompareState, session: &Session, acts: &mut Vec<C
     }
     let full = text!("compare-recipe-named", recipe = recipe_label(label));
     let list = &compare.recipes.list;
-    let response = ui
-        .menu_button(text, |ui| {
-            show_scroll_bar(ui);
-            ScrollArea::vertical()
-                .max_height(LIST_HEIGHT_PX)
-                .show(ui, |ui| entries(ui, compare, label, acts));
-            ui.separator();
-            let is_own = BUILT_IN_RECIPES.contains(&label.name.as_str());
-            let is_kept = compare.recipes.has(&label.name);
-            let is_default = list.default == label.name;
-            // Why an entry is disabled, if it is.
-            let built_in = is_own.then(|| text!("compare-built-in-stays"));
-            let not_kept = (!is_kept).then(|| text!("compare-not-kept"));
-            let unchanged = (!label.is_changed).then(|| text!("compare-nothing-to-save"));
-            let is_set = is_default.then(|| text!("compare-default-already"));
-            let fixed = built_in.clone().or_else(|| not_kept.clone());
-            for (text, why_not, action) in [
-                (
-                    text!("shell-save"),
-                    built_in.or(unchanged),
-                    RecipeAction::Save,
-                ),
-                (
-                    text!("shell-save-as"),
-                    None,
-                    RecipeAction::Name(NamingPurpose::SaveAs),
-                ),
-                (text!("compare-duplicate"), None, RecipeAction::Duplicate),
-                (
-                    text!("compare-rename"),
-                    fixed.clone(),
-                    RecipeAction::Name(NamingPurpose::Rename),
-                ),
-                (text!("compare-delete"), fixed, RecipeAction::Delete),
-                (
-                    text!("compare-set-default"),
-                    not_kept.or(is_set),
-                    RecipeAction::MakeDefault,
-                ),
-            ] {
-                let entry = ui.add_enabled(why_not.is_none(), Button::new(text));
-                let entry = entry.on_disabled_hover_text(why_not.unwrap_or_default());
-                if entry.clicked() {
-                    acts.push(CompareAction::Recipe(action));
-                    ui.close();
-                }
+    let response = menu_button(ui, text, |ui| {
+        show_scroll_bar(ui);
+        ScrollArea::vertical()
+            .max_height(LIST_HEIGHT_PX)
+            .show(ui, |ui| entries(ui, compare, label, acts));
+        ui.separator();
+        let is_own = BUILT_IN_RECIPES.contains(&label.name.as_str());
+        let is_kept = compare.recipes.has(&label.name);
+        let is_default = list.default == label.name;
+        // Why an entry is disabled, if it is.
+        let built_in = is_own.then(|| text!("compare-built-in-stays"));
+        let not_kept = (!is_kept).then(|| text!("compare-not-kept"));
+        let unchanged = (!label.is_changed).then(|| text!("compare-nothing-to-save"));
+        let is_set = is_default.then(|| text!("compare-default-already"));
+        let fixed = built_in.clone().or_else(|| not_kept.clone());
+        for (text, why_not, action) in [
+            (
+                text!("shell-save"),
+                built_in.or(unchanged),
+                RecipeAction::Save,
+            ),
+            (
+                text!("shell-save-as"),
+                None,
+                RecipeAction::Name(NamingPurpose::SaveAs),
+            ),
+            (text!("compare-duplicate"), None, RecipeAction::Duplicate),
+            (
+                text!("compare-rename"),
+                fixed.clone(),
+                RecipeAction::Name(NamingPurpose::Rename),
+            ),
+            (text!("compare-delete"), fixed, RecipeAction::Delete),
+            (
+                text!("compare-set-default"),
+                not_kept.or(is_set),
+                RecipeAction::MakeDefault,
+            ),
+        ] {
+            let entry = ui.add_enabled(why_not.is_none(), Button::new(text));
+            let entry = entry.on_disabled_hover_text(why_not.unwrap_or_default());
+            if entry.clicked() {
+                acts.push(CompareAction::Recipe(action));
+                ui.close();
             }
-            ui.separator();
-            for (text, file) in [
-                (text!("compare-import"), CompareFile::ImportRecipe),
-                (text!("shell-export"), CompareFile::ExportRecipe),
-            ] {
-                if ui.button(text).clicked() {
-                    acts.push(CompareAction::Ask(file));
-                    ui.close();
-                }
+        }
+        ui.separator();
+        for (text, file) in [
+            (text!("compare-import"), CompareFile::ImportRecipe),
+            (text!("shell-export"), CompareFile::ExportRecipe),
+        ] {
+            if ui.button(text).clicked() {
+                acts.push(CompareAction::Ask(file));
+                ui.close();
             }
-        })
-        .response;
+        }
+    })
+    .response;
     response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, true, &full));
     response.on_hover_text(full);
 }

@@ -7,7 +7,7 @@ use egui::{
     StrokeKind, Ui, pos2, vec2,
 };
 
-use super::{EnrolAction, EnrolState, thumbnails::Thumbnails};
+use super::{EnrolAction, EnrolState, thumbnails::Thumbnails, undo::LastChangedPart};
 use crate::shared::paint_fitted;
 use inspection::library::{PartMeta, PartName};
 use shell::inspection::library_cache::LibraryView;
@@ -113,7 +113,7 @@ impl Catalogue {
                         below: [day, beneath],
                         texture: thumbnails.of_part(index),
                         is_damaged: false,
-                        latest: latest.map(|latest| latest.what.shown()),
+                        latest: latest.map(LastChangedPart::shown),
                         reference_of,
                     };
                     let response = card(ui, &shown, enrol, actions);

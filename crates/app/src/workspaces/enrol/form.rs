@@ -19,7 +19,7 @@ use stages::reference::Coverage;
 use ui::{
     language::{advised, described, keys, text, what_and_advice},
     theme::{ROUNDING, Theme, font, space},
-    widgets::{Mark, grouped, menu_list, sentence, shortened, text_button},
+    widgets::{Mark, grouped, menu_button, menu_list, sentence, shortened, text_button},
 };
 
 /// Draws the card.
@@ -214,7 +214,7 @@ fn reference_menu(ui: &mut Ui, draft: &Draft, session: &Session, actions: &mut V
         Some(of) => library.title_of(of.as_str()).to_owned(),
         None => text!("enrol-reference-of-none"),
     };
-    let menu = ui.menu_button(format!("{} ▼", shortened(&title(chosen), 30)), |ui| {
+    let menu = menu_button(ui, format!("{} ▼", shortened(&title(chosen), 30)), |ui| {
         let own = library
             .parts
             .iter()

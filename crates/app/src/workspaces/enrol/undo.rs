@@ -5,12 +5,15 @@ use std::{
     sync::{Arc, Weak},
 };
 
+use jiff::{Timestamp, tz::TimeZone};
+
 use super::{
     change::{self, ChangeText, Changed, LibraryChange, PartVersion},
     draft::Draft,
     selection::Corrections,
     state::{EnrolState, form_of},
 };
+use geometry::clock;
 use inspection::library::PartName;
 use shell::{
     action::Action,
@@ -112,6 +115,24 @@ pub struct LastChangedPart {
     pub name: PartName,
     /// Kind of the change.
     pub what: PartChange,
+    /// When it was changed.
+    pub at: Timestamp,
+}
+
+impl LastChangedPart {
+    /// Describes the change, with its time or, on another day, its date.
+    pub fn shown(&self) -> String {
+        let [at, now] = [self.at, clock::now()].map(|at| at.to_zoned(TimeZone::system()));
+        let is_today = at.date() == now.date();
+        let format = if is_today { "%H:%M" } else { "%Y-%m-%d" };
+        let time = at.strftime(format).to_string();
+        match self.what {
+            PartChange::Renamed => text!("enrol-renamed-at", time = time),
+            PartChange::BroughtBack => text!("enrol-brought-back-at", time = time),
+            PartChange::Saved => text!("enrol-saved-at", time = time),
+            PartChange::Path => text!("enrol-path-changed-at", time = time),
+        }
+    }
 }
 
 /// Kind of a part's last change.
@@ -134,16 +155,6 @@ impl PartChange {
             LibraryChange::Restore(_) => Self::BroughtBack,
             LibraryChange::Save(..) | LibraryChange::Remove(_) => Self::Saved,
             LibraryChange::ReadPath(..) | LibraryChange::SetPath(..) => Self::Path,
-        }
-    }
-
-    /// Description for a person.
-    pub fn shown(self) -> String {
-        match self {
-            Self::Renamed => text!("enrol-just-renamed"),
-            Self::BroughtBack => text!("enrol-just-brought-back"),
-            Self::Saved => text!("enrol-just-saved"),
-            Self::Path => text!("enrol-path-changed"),
         }
     }
 }
@@ -206,6 +217,7 @@ impl EnrolState {
         self.latest = name.clone().map(|name| LastChangedPart {
             name,
             what: PartChange::of(&step.change),
+            at: clock::now(),
         });
         step.change = back;
         step.left = Some(left);

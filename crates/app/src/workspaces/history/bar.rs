@@ -12,7 +12,9 @@ use shell::session::Session;
 use ui::{
     language::{described, text},
     theme::{Theme, space},
-    widgets::{self, labelled, line_edit, menu_list, sentence, shortened, text_button},
+    widgets::{
+        self, labelled, line_edit, menu_button, menu_list, sentence, shortened, text_button,
+    },
 };
 
 /// Draws the bar.
@@ -126,7 +128,7 @@ fn menu<T: PartialEq + Clone>(
     let now = choices.iter().find(|(choice, _)| choice == chosen);
     let now = now.map_or("", |(_, title)| title);
     let title = format!("{label} · {} ▼", shortened(now, 20));
-    ui.menu_button(&title, |ui| {
+    menu_button(ui, &title, |ui| {
         ui.set_min_width(160.0);
         menu_list(ui, |ui| {
             for (choice, title) in choices {

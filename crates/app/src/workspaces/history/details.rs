@@ -31,8 +31,8 @@ use ui::{
     language::{Language, advised, described, keys, parameters, text},
     theme::{Theme, font, space},
     widgets::{
-        fitted, heading, labelled, line_edit, line_mark, path_row, row, sentence, shortened,
-        texture,
+        fitted, heading, labelled, line_edit, line_mark, menu_button, path_row, row, sentence,
+        shortened, texture,
     },
 };
 
@@ -543,7 +543,7 @@ fn truth_menu(
     let chosen = row.label.as_ref();
     let title = shortened(&truth_title(chosen, library), 24);
     let title = format!("{} · {title} ▼", text!("history-actual-part"));
-    let menu = ui.menu_button(&title, |ui| {
+    let menu = menu_button(ui, &title, |ui| {
         let first = [None, Some(Truth::NotEnrolled), Some(Truth::Nothing)];
         truth_entries(ui, chosen, &first, library, |truth| {
             actions.push(HistoryAction::Label(number, truth));

@@ -25,6 +25,8 @@ use ui::{
 
 /// Number of shifts that fit the plot; the last ones are shown.
 const MAX_SHIFTS: usize = 21;
+/// Number of shifts that the plot has room for at least, so that the bars of few are no wider.
+const MIN_SHIFTS: usize = 7;
 /// Height of the plot, logical pixels.
 const HEIGHT: f32 = 220.0;
 /// Share of the width that a part's title takes at most.
@@ -319,9 +321,10 @@ fn shifts(ui: &mut Ui, all: &[(Zoned, Tally)]) {
     response.widget_info(|| WidgetInfo::labeled(egui::Role::Label, true, words.join("; ")));
     ui.painter().rect_filled(rect, ROUNDING, theme.panel);
     let most = last.iter().map(|(_, tally)| tally.num()).max().unwrap_or(0);
+    let num_places = last.len().max(MIN_SHIFTS);
     // As many marks as fit.
     let room = (size.x / 90.0).max(1.0) as usize;
-    let step = last.len().div_ceil(room).max(1);
+    let step = num_places.div_ceil(room).max(1);
     let marks = last.iter().enumerate().step_by(step);
     let marks =
         marks.map(|(index, (start, _))| (index as f64, start.strftime("%m-%d %H:%M").to_string()));
@@ -341,7 +344,7 @@ fn shifts(ui: &mut Ui, all: &[(Zoned, Tally)]) {
     );
     let axes = Axes {
         title: vec![(text!("history-by-shift"), theme.text)],
-        across: Axis::new([-0.6, last.len() as f64 - 0.4], marks.collect()),
+        across: Axis::new([-0.6, num_places as f64 - 0.4], marks.collect()),
         up: Axis::new(
             // Leave room for the names above the bars.
             [0.0, 1.25 * most as f64],

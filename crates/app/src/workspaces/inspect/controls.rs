@@ -13,6 +13,7 @@ use ui::{
     language::text,
     theme::space,
     viewport::{Colouring, FitRequest, StandardView, ViewTool},
+    widgets::menu_button,
 };
 
 /// Below this width of the view, logical pixels, the view directions are in a menu.
@@ -29,7 +30,8 @@ pub(super) fn ui(
 ) {
     let figure = &inspected.view;
     if ui.available_width() < MENU_WIDTH_PX {
-        ui.menu_button(small(opened(&text!("shell-view"))), |ui| sides(ui, view));
+        let title = small(opened(&text!("shell-view")));
+        menu_button(ui, title, |ui| sides(ui, view));
     } else {
         sides(ui, view);
     }
@@ -37,7 +39,7 @@ pub(super) fn ui(
         "inspect-colour",
         colouring = view.style.colouring.title()
     ));
-    ui.menu_button(small(now), |ui| {
+    menu_button(ui, small(now), |ui| {
         for colouring in Colouring::ALL {
             let is_chosen = view.style.colouring == colouring;
             let is_there = colouring != Colouring::Deviation || figure.has_deviations;
@@ -50,7 +52,7 @@ pub(super) fn ui(
             }
         }
     });
-    ui.menu_button(small(opened(&text!("inspect-show"))), |ui| {
+    menu_button(ui, small(opened(&text!("inspect-show"))), |ui| {
         for part in ViewPart::ALL {
             let mut is_shown = state.parts.contains(&part);
             let choice = egui::Checkbox::new(&mut is_shown, part.title());

@@ -10,6 +10,7 @@ mod operator;
 mod operator_words;
 mod plots;
 mod ranking;
+mod readout;
 mod robot_numbers;
 mod state;
 mod strip;

@@ -64,11 +64,7 @@ impl Pictures<'_> {
         let painter = &ui.painter_at(rect);
         painter.rect_filled(rect, ROUNDING, self.theme.canvas);
         let figures = &self.inspected.figures;
-        let inner = rect.shrink(if detail == PlotDetail::Large {
-            12.0
-        } else {
-            5.0
-        });
+        let inner = Self::inner(rect, detail);
         let is_there = match panel {
             StagePanel::Segmentation => self.segmentation.map(|made| paint(made, painter, rect)),
             StagePanel::BinaryImage => self.binary.map(|made| paint(made, painter, rect)),
@@ -94,6 +90,30 @@ impl Pictures<'_> {
             };
             self.says(painter, inner, &says);
         }
+    }
+
+    /// The rectangle without the edge of its picture.
+    pub(super) fn inner(rect: Rect, detail: PlotDetail) -> Rect {
+        rect.shrink(match detail {
+            PlotDetail::Large => 12.0,
+            PlotDetail::Small => 5.0,
+        })
+    }
+
+    /// Smallest and largest coordinates of the contour; enlarged, also of the enrolled outline over it.
+    pub(super) fn contour_bounds(
+        &self,
+        figure: &ContourFigure,
+        detail: PlotDetail,
+    ) -> [[f32; 2]; 2] {
+        let enlarged = self.candidate().filter(|_| detail == PlotDetail::Large);
+        let outline = enlarged.map_or(&[][..], |candidate| &candidate.outline[..]);
+        outline.iter().fold(figure.bounds, |[low, high], [x, y]| {
+            [
+                [low[0].min(*x), low[1].min(*y)],
+                [high[0].max(*x), high[1].max(*y)],
+            ]
+        })
     }
 
     /// Draws a text in place of a picture.
@@ -123,7 +143,7 @@ impl Pictures<'_> {
     }
 
     fn contour(&self, figure: &ContourFigure, painter: &Painter, rect: Rect, detail: PlotDetail) {
-        let at = plane_in(rect, figure.bounds);
+        let at = plane_in(rect, self.contour_bounds(figure, detail));
         let centroid = at(&figure.centroid);
         let corners = |border: &PlaneLine| -> Vec<Pos2> {
             let step = detail.step(border.len(), rect.width());
@@ -191,19 +211,29 @@ impl Pictures<'_> {
         let rms = self.session.units.length(rms_m);
         let title = text!("inspect-ended-at", part = &candidate.title, rms = rms);
         let last = (log_e.len() - 1) as f64;
+        let mut iterations = Vec::new();
+        let mut read: Option<Box<dyn Fn(f64) -> String + '_>> = None;
+        if is_large {
+            iterations.extend([0.0, last.max(1.0)].map(|at| (at, format!("{at:.0}"))));
+            read = Some(Box::new(move |at| {
+                let index = at.round().clamp(0.0, last) as usize;
+                let e = format!("{:.2e}", 10.0_f32.powf(log_e[index]));
+                text!("inspect-at-iteration", iteration = index, e = e)
+            }));
+        }
         let axes = Axes {
             title: is_large
                 .then_some((title, theme.text))
                 .into_iter()
                 .collect(),
-            across: Axis::new([0.0, last.max(1.0)], Vec::new()),
+            across: Axis::new([0.0, last.max(1.0)], iterations),
             up: Axis::powers(up, |power| format!("1e{power}")),
             font: if is_large {
                 font::body()
             } else {
                 font::scale()
             },
-            read: None,
+            read,
         };
         axes.show(ui, rect, |plot| {
             let colour = theme.second_series;

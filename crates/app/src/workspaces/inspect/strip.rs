@@ -125,6 +125,7 @@ pub(super) fn enlarged_ui(ui: &mut Ui, pictures: &Pictures<'_>, actions: &mut Ve
             egui::WidgetInfo::labeled(egui::Role::Image, true, label)
         });
         pictures.paint(panel, ui, rect, PlotDetail::Large);
+        pictures.read_out(panel, ui, rect);
     });
 }
 

@@ -125,7 +125,7 @@ impl SceneView {
         let parts = shown.parts.iter().map(|part| &part.view.points);
         self.scene.points = vec![inspected.view.points.clone().focused_on(parts)];
         self.placed = None;
-        // While a source is followed, keep the view that a person has chosen.
+        // While a source is followed, keep the view that a person has chosen; else it follows the parts.
         let wants_more = shown.session.is_some() && self.session == shown.session;
         // The same scan with other shots is still at the same place.
         let space = inspected.scan.as_ref().and_then(|scan| scan.fused.space());
@@ -134,8 +134,14 @@ impl SceneView {
             .first_part
             .as_ref()
             .is_some_and(|first| shown.includes(first));
-        self.first_part = shown.parts.first().map(Arc::clone);
-        if !(wants_more || is_same || space.is_some() && space == self.space) {
+        let (former, first) = (self.first_part.as_ref(), &shown.parts[0]);
+        let is_other = former.is_some_and(|former| former.hung() != first.hung());
+        self.first_part = Some(Arc::clone(first));
+        let is_left_behind = wants_more
+            && self.camera.is_fitted()
+            && inspected.view.points.focus().is_some()
+            && (is_other || self.is_cut_off());
+        if is_left_behind || !(wants_more || is_same || space.is_some() && space == self.space) {
             self.camera.request_fit(FitRequest::Focus);
         }
         self.space = space;
@@ -709,6 +715,31 @@ mod tests {
         assert!(is_framed(&small), "the first");
         assert!(is_framed(&large));
         assert!(!is_framed(&again), "all of it is in the view");
+    }
+
+    #[test]
+    fn while_a_source_is_followed_the_view_follows_the_parts_until_a_person_turns_it() {
+        let mut view = view();
+        view.size = vec2(640.0, 480.0);
+        let is_fitted_to = |view: &mut SceneView, generation, kind| {
+            let inspected = inspected_cell(CellChoice::Part(kind, Side::Left), 1);
+            view.show(&Shown {
+                session: Some(1),
+                ..Shown::new(generation, Arc::new(inspected))
+            });
+            let is_fitted = view.camera.pending_fit().is_some();
+            if let Some(part) = view.scene.focus().filter(|_| is_fitted) {
+                view.camera.fit(&part, glam::Vec2::new(640.0, 480.0));
+            }
+            is_fitted
+        };
+        assert!(is_fitted_to(&mut view, 1, PartKind::FrontBumper));
+        assert!(is_fitted_to(&mut view, 2, PartKind::Grille), "another part");
+        view.camera.turn(0.3, 0.0);
+        assert!(!is_fitted_to(&mut view, 3, PartKind::FrontBumper));
+        view.camera.request_fit(FitRequest::Focus);
+        assert!(is_fitted_to(&mut view, 4, PartKind::Grille), "pressed");
+        assert!(is_fitted_to(&mut view, 5, PartKind::FrontBumper));
     }
 
     #[test]

@@ -253,7 +253,7 @@ fn reasons(ui: &mut Ui, reach: &Reach, setup: &ProgramSetup, actions: &mut Vec<P
     }
     if let Some((num, most)) = reach.check.tilted() {
         let degrees = format!("{:.0}", most.to_degrees());
-        let words = text!("paint-tilted", num = grouped(num), degrees = degrees);
+        let words = text!("paint-tilted", num = num, degrees = degrees);
         note(ui, &words, theme.weak_text);
     }
     let [slower, by_joints, spraying] = reach.check.changed_moves();
@@ -262,7 +262,7 @@ fn reasons(ui: &mut Ui, reach: &Reach, setup: &ProgramSetup, actions: &mut Vec<P
         note(ui, &words, theme.weak_text);
     }
     if spraying > 0 {
-        let words = text!("paint-slower-spraying", num = grouped(spraying));
+        let words = text!("paint-slower-spraying", num = spraying);
         note(ui, &words, theme.weak_text);
     }
     if reach.check.num_reached() == reach.check.points.len() {

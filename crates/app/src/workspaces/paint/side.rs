@@ -26,7 +26,8 @@ use ui::{
     theme::{Theme, font, space},
     tool_row::{choice, tab_row},
     widgets::{
-        Mark, grouped, heading, line_edit, line_mark, menu_list, row, shortened, text_button,
+        Mark, grouped, heading, line_edit, line_mark, menu_button, menu_list, row, shortened,
+        text_button,
     },
 };
 
@@ -247,17 +248,19 @@ fn coat(ui: &mut Ui, paint: &PaintState, actions: &mut Vec<PaintAction>) {
     ui.add_space(space::SMALL);
     ui.horizontal(|ui| {
         let kept = design.kept.name.as_str();
+        let title = parameters::coat_title(kept);
         let name = if design.is_coat_changed() {
-            text!("paint-coat-changed", coat = kept)
+            text!("paint-coat-changed", coat = title)
         } else {
-            kept.to_owned()
+            title
         };
         let text = format!("{} ▼", shortened(&name, TITLE));
         let label = text!("paint-coat-named", coat = name);
         let notes = parameters::coat_notes(&design.kept.notes);
         menu(ui, text, &label, notes, |ui| {
             for coat in &paint.coats {
-                if ui.selectable_label(coat == kept, coat).clicked() {
+                let title = parameters::coat_title(coat);
+                if ui.selectable_label(coat == kept, title).clicked() {
                     actions.push(PaintAction::ChooseCoat(coat.clone()));
                     ui.close();
                 }
@@ -290,7 +293,7 @@ pub(super) fn menu(
     hint: String,
     entries: impl FnOnce(&mut Ui),
 ) {
-    let button = ui.menu_button(text, entries).response;
+    let button = menu_button(ui, text, entries).response;
     if !ui.is_rect_visible(button.rect) {
         Popup::close_id(ui.ctx(), Popup::default_response_id(&button));
     }

@@ -1,0 +1,35 @@
+# 帮助：指南、程序和计算机、问题报告以及搜索
+
+help-guide = 指南
+help-about = 关于
+help-report = 报告问题
+help-search = 搜索按键和指南
+help-nothing-found = 未找到：请减少或缩短搜索词
+help-keys-and-actions = 按键和操作
+help-guide-in-english = 指南只有英文版
+help-version = 版本
+help-system = 系统
+help-graphics = 显卡
+help-folders = 使用中的文件夹
+help-library = 零件库
+help-cases = 样本
+help-recipes = 配方
+help-settings = 设置
+help-copy = 复制
+help-copy-path = 复制路径：{ $what }
+help-licences = 许可证
+help-licences-say = Partsight 是自由软件，采用 MIT 或 Apache 2.0 许可证。docs/DEPENDENCIES.md 列出了所用的软件包以及查看其许可证的方法
+help-report-says = 问题报告是一个 ZIP 文件，包含他人重现您所见情况所需的内容。在您发送之前，它只保存在这台计算机上
+help-report-inside = 报告将包含
+help-report-no-scene = 没有场景：尚未检测
+help-report-scene = 屏幕上的场景：{ $scene }，及其结果
+help-report-first-shot = { $scene } 的第一次拍摄，及扫描的结果
+help-report-entries = 与之比较的 { $num } 个零件库条目：{ $part }
+help-report-recipe = 配方 { $recipe }
+help-report-system = 程序和系统的版本，以及显卡
+help-report-settings = 窗口的设置，含文件路径
+help-report-log = 此窗口的 { $num } 条通知
+help-report-without = 设置和结果中不含 PIN、网络地址、序列号、订单和操作员姓名
+help-report-save = 保存报告…
+help-report-writing = 正在写入问题报告
+help-zip-files = ZIP 压缩文件
