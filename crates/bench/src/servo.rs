@@ -317,9 +317,9 @@ mod tests {
     fn runs_end_near_their_targets_within_the_limits_and_are_the_same_again() {
         let library = standard_library();
         let some = |num| servo_cases(ServoSuite::Camera, num, 3_000_000, &library, || ());
-        let cases = some(8);
+        let cases = some(4);
         let runs: Vec<&ServoRun> = cases.iter().filter_map(|case| case.run.as_ref()).collect();
-        assert_eq!(runs.len(), 8);
+        assert_eq!(runs.len(), 4);
         for run in &runs {
             assert!(run.is_done, "{run:?}");
             assert!(run.end[0] < 2.5 && run.end[1] < 0.25, "{run:?}");
@@ -333,7 +333,7 @@ mod tests {
     #[test]
     fn in_single_moves_they_end_there_too() {
         let library = standard_library();
-        let cases = servo_cases(ServoSuite::SingleMoves, 4, 3_000_000, &library, || ());
+        let cases = servo_cases(ServoSuite::SingleMoves, 2, 3_000_000, &library, || ());
         for case in &cases {
             let run = case.run.as_ref().expect("a start");
             assert!(run.is_done, "{case:?}");
