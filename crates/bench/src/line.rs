@@ -140,7 +140,13 @@ pub fn line_cases(
         cases.extend(map_each(num, num_workers, |k| {
             let number = (first + k) as u64;
             let (setup, frames_per_second, is_counted) = setup(number, first_seed + number);
-            line_case(setup, PARTS_PER_LINE, frames_per_second, is_counted, library)
+            line_case(
+                setup,
+                PARTS_PER_LINE,
+                frames_per_second,
+                is_counted,
+                library,
+            )
         }));
         for _ in 0..num {
             after_each();

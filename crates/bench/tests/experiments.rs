@@ -213,7 +213,10 @@ fn whole_inspections_are_timed_by_set_and_compared_with_an_earlier_run() {
         (&["--files", "frames/none"], "no scene in it"),
         (&["--compare", "note.txt"], "is no measurement of speed"),
         // What it has written itself is one.
-        (&["--compare", "now.json", "--files", "gone.ply"], "gone.ply"),
+        (
+            &["--compare", "now.json", "--files", "gone.ply"],
+            "gone.ply",
+        ),
         (
             &["--files", "frame.png", "--poses", "2"],
             "cannot be used with",
