@@ -15,7 +15,7 @@ use app::{
         inspect::{InspectAction, InspectFile, InspectState, InspectWorkspace},
     },
 };
-use egui::Vec2;
+use egui::{Vec2, ViewportId};
 use egui_kittest::{Harness, kittest::Queryable as _};
 use shell::{
     action::{Action, DialogRequest},
@@ -57,9 +57,37 @@ pub(crate) fn open() -> WindowHarness {
 /// Draws until no task is running.
 pub(crate) fn settle(harness: &mut WindowHarness) {
     wait_for(harness, Window::is_idle);
-    harness.run_steps(8);
+    let_pass(harness, 8);
     // Check everywhere that every control has a name.
     harness.check_accessibility();
+}
+
+/// Lets the time of so many steps pass. As on a screen, only the frames that the window asks for at once are drawn, and the last
+/// two.
+pub(crate) fn let_pass(harness: &mut WindowHarness, num_steps: u32) {
+    // One frame for each event that waits.
+    harness.step();
+    let step = f64::from(harness.input().predicted_dt);
+    let now = |harness: &WindowHarness| harness.ctx.input(|input| input.time);
+    let end = now(harness) + step * f64::from(num_steps - 1);
+    let is_far = |harness: &WindowHarness| now(harness) + 2.5 * step < end;
+    while is_far(harness) && asks_for_frame(harness) {
+        harness.step();
+    }
+    if is_far(harness) {
+        harness.input_mut().time = Some(end - step);
+        harness.step();
+        harness.input_mut().time = None;
+    }
+    while now(harness) + 0.5 * step < end {
+        harness.step();
+    }
+}
+
+/// True if the window wants to draw another frame at once.
+fn asks_for_frame(harness: &WindowHarness) -> bool {
+    let viewport = harness.output().viewport_output.get(&ViewportId::ROOT);
+    viewport.is_some_and(|viewport| viewport.repaint_delay.is_zero())
 }
 
 /// Draws until the state meets the condition.
@@ -76,7 +104,7 @@ pub(crate) fn wait_for(harness: &mut WindowHarness, is_so: impl Fn(&Window) -> b
     let until = Instant::now() + Duration::from_mins(3);
     let moving = (0..20).map(|_| 0.1);
     let mut ticks = moving.chain(std::iter::repeat(1e-3));
-    let mut pauses_ms = (5..30).chain(std::iter::repeat(30));
+    let mut pauses_ms = [5, 10, 20, 30].into_iter().chain(std::iter::repeat(40));
     harness.step();
     while !is_so(harness.state()) {
         assert!(Instant::now() < until, "still working after three minutes");
@@ -91,7 +119,7 @@ pub(crate) fn wait_for(harness: &mut WindowHarness, is_so: impl Fn(&Window) -> b
 /// Scrolls the control of this label into view, presses it, and waits for the result.
 pub(crate) fn press(harness: &mut WindowHarness, label: &str) {
     harness.get_by_label(label).scroll_to_me();
-    harness.run_steps(12);
+    let_pass(harness, 12);
     harness.get_by_label(label).click();
     settle(harness);
 }
