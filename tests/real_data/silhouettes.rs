@@ -9,7 +9,7 @@ use partsight::{
     stages::{
         contour::{Contour, ContourParams, find_contour},
         project::PlaneImage,
-        rank::{EXHAUSTIVE_UP_TO, Matcher, Query, RankParams, rank, rank_by},
+        rank::{EXHAUSTIVE_UP_TO, Query, RankParams, rank, rank_by},
         reference::Reference,
         signature::{FanSignature, SignatureParams, describe},
     },
@@ -125,21 +125,27 @@ fn drawn(shape: &Silhouette, turn_degrees: f64, raster: usize) -> PlaneImage {
     let (sin, cos) = turn_degrees.to_radians().sin_cos();
     let per_pixel = shape.longest_side / raster as f64;
     let mut image = BinaryImage::new(side, side);
+    let at = |column: f64, row: f64| {
+        let [x, y] = [column, row].map(|n| (n - side as f64 / 2.0) * per_pixel);
+        let u = shape.centre.x + cos * x - sin * y;
+        [u, shape.centre.y + sin * x + cos * y]
+    };
+    // Farther from the centre than this, no sample of a pixel is in the shape.
+    let around = 0.5 * shape.longest_side + 0.5 * per_pixel + 1.0;
     for row in 0..side {
         for column in 0..side {
+            let [u, v] = at(column as f64, row as f64);
+            let is_near = |x: f64, centre: f64| (x - centre).abs() < around;
+            if !is_near(u, shape.centre.x) || !is_near(v, shape.centre.y) {
+                continue;
+            }
             // The majority of nine samples per pixel.
-            let set = (0..9)
-                .filter(|k| {
-                    let x = (column as f64 + f64::from(k % 3 - 1) / 3.0 - side as f64 / 2.0)
-                        * per_pixel;
-                    let y =
-                        (row as f64 + f64::from(k / 3 - 1) / 3.0 - side as f64 / 2.0) * per_pixel;
-                    let u = shape.centre.x + cos * x - sin * y;
-                    let v = shape.centre.y + sin * x + cos * y;
-                    shape.image.is_set(u.round() as i64, v.round() as i64)
-                })
-                .count();
-            image.pixels[row * side + column] = u8::from(set >= 5);
+            let set = (0..9).filter(|k| {
+                let [across, down] = [k % 3 - 1, k / 3 - 1].map(|n| f64::from(n) / 3.0);
+                let [u, v] = at(column as f64 + across, row as f64 + down);
+                shape.image.is_set(u.round() as i64, v.round() as i64)
+            });
+            image.pixels[row * side + column] = u8::from(set.count() >= 5);
         }
     }
     PlaneImage::from_image(image, Metres(1.0 / raster as f64))
@@ -151,17 +157,7 @@ fn described(plane: &PlaneImage) -> (Contour, FanSignature) {
     (contour, signature)
 }
 
-fn num_right(
-    shapes: &[&Upright],
-    references: &[Reference],
-    matcher: Matcher,
-    turn: f64,
-    raster: usize,
-) -> usize {
-    let params = RankParams {
-        matcher,
-        ..RankParams::default()
-    };
+fn num_right(shapes: &[&Upright], references: &[Reference], turn: f64, raster: usize) -> usize {
     let is_right = |Upright { shape, .. }: &&&Upright| {
         let plane = drawn(shape, turn, raster);
         let (contour, signature) = described(&plane);
@@ -170,7 +166,7 @@ fn num_right(
             contour: &contour,
             signature: &signature,
         };
-        let ranking = rank(&query, references, &params);
+        let ranking = rank(&query, references, &RankParams::default());
         ranking.entries[0].part == shape.class
     };
     shapes.iter().filter(is_right).count()
@@ -188,12 +184,13 @@ fn a_shape_is_found_again_turned_flipped_and_at_another_resolution() {
         ("both axes flipped", 180.0, 200),
         ("160 pixels instead of 200", 0.0, 160),
     ] {
-        let by_default = num_right(&shapes, &references, Matcher::Default, turn, raster);
-        let by_paper = num_right(&shapes, &references, Matcher::Paper, turn, raster);
-        eprintln!("{what}: default {by_default}/35, paper {by_paper}/35");
-        assert!(by_default >= 34, "{what}: only {by_default} of 35");
+        let num_right = num_right(&shapes, &references, turn, raster);
+        assert!(num_right >= 34, "{what}: only {num_right} of 35");
     }
 }
+
+/// Number of shapes that are also ranked by three workers.
+const NUM_BY_THREE: usize = 20;
 
 /// All shapes are enrolled: too many to compare each in full.
 #[test]
@@ -213,7 +210,9 @@ fn a_library_of_hundreds_ranks_the_same_sixteen_first_as_all_compared_in_full() 
             signature: &signature,
         };
         let ranking = rank_by(1, &query, &references, &params);
-        assert_eq!(ranking, rank_by(3, &query, &references, &params));
+        if num < NUM_BY_THREE {
+            assert_eq!(ranking, rank_by(3, &query, &references, &params));
+        }
         let some = references.chunks(EXHAUSTIVE_UP_TO);
         let parts = some.flat_map(|some| rank(&query, some, &params).entries);
         let mut scores: Vec<f64> = parts.map(|entry| entry.score).collect();
