@@ -19,6 +19,7 @@ use egui::{Vec2, ViewportId};
 use egui_kittest::{Harness, kittest::Queryable as _};
 use shell::{
     action::{Action, DialogRequest},
+    inspection::library_cache::LibraryCache,
     source::live::SourceState,
     state::State,
     workspace::{ShellContext, Workspace},
@@ -41,10 +42,11 @@ pub(crate) fn open_with(size: Vec2, options: WindowOptions) -> WindowHarness {
     harness
 }
 
-/// Options for a window with the shipped parts, without the user's library and settings.
+/// Options for a window with the shipped parts, which are loaded once for all, without the user's library and settings.
 pub(crate) fn plain_options() -> WindowOptions {
     WindowOptions {
         library: Some(::inspection::fixtures::SHIPPED_PARTS.into()),
+        former_library: Some(LibraryCache::default().get()),
         ..WindowOptions::default()
     }
 }
