@@ -5,9 +5,9 @@ use std::{
     time::{Duration, SystemTime},
 };
 
-use crate::workplace::Workplace;
+use crate::{kit::copy_part, workplace::Workplace};
 
-/// A place with a calibrated cell and a door in front of its camera.
+/// A place with a calibrated cell and a door in front of its camera. The door is its only part: a program reads all of them.
 fn shop() -> Workplace {
     shop_at("kuka 1200 -400 1900 86 -5 120")
 }
@@ -20,10 +20,16 @@ fn shop_ahead() -> Workplace {
 fn shop_at(cell: &str) -> Workplace {
     let shop = Workplace::new();
     shop.with_made(&["shop", cell], |shop| {
+        enrol(shop, "front_door");
         shop.coded(0, &["calibrate", "set", cell, "--mount", "eye-to-hand"]);
         hang(shop, "front_door");
     });
     shop
+}
+
+/// Adds a shipped part to the library of the place.
+fn enrol(shop: &Workplace, part: &str) {
+    copy_part(part, &shop.path("data/partsight/library"));
 }
 
 fn hang(shop: &Workplace, part: &str) {
@@ -31,15 +37,19 @@ fn hang(shop: &Workplace, part: &str) {
     shop.simulated(&[&["--part", part], &placed[..]].concat());
 }
 
-/// Captures a rack of three parts.
+/// Captures a rack of three parts, which are enrolled.
 fn hang_three(shop: &Workplace) {
+    for part in ["radiator_support", "back_door"] {
+        enrol(shop, part);
+    }
     let rack = ["--rack", "3", "--rack-kind", "apart", "--seed", "4"];
     shop.simulated(&[&rack[..], &["--out", "rack.png"]].concat());
 }
 
 /// Stores a path of three points with the door.
 fn store_path(shop: &Workplace) {
-    shop.with_made(&["library with a path"], |shop| {
+    shop.with_made(&["door with a path"], |shop| {
+        enrol(shop, "front_door");
         shop.write(
             "path.csv",
             "nozzle_x_mm,nozzle_y_mm,nozzle_z_mm,direction_x,direction_y,direction_z\n\
@@ -614,6 +624,7 @@ fn no_program_is_written_for_a_pose_that_another_one_fits_as_well_unless_forced(
 #[test]
 fn no_program_is_written_of_a_path_that_does_not_aim_at_the_part_unless_forced() {
     let shop = shop();
+    enrol(&shop, "grille");
     let plan = ["path", "plan", "grille", "--coat", "primer"];
     shop.run(&[&plan[..], &["--output", "grille.csv"]].concat());
     shop.write(
