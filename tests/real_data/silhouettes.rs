@@ -22,8 +22,25 @@ use crate::data_folder;
 struct Silhouette {
     class: String,
     image: BinaryImage,
+    /// Number of set pixels above each row and left of each column.
+    sums: Vec<u32>,
     centre: Point2<f64>,
     longest_side: f64,
+}
+
+impl Silhouette {
+    /// Number of set pixels in these columns and rows, each from the first to the last, and of all of them.
+    fn num_set(&self, columns: [i64; 2], rows: [i64; 2]) -> [u32; 2] {
+        let clip = |[first, last]: [i64; 2], size: usize| {
+            [first, last + 1].map(|end| end.clamp(0, size as i64) as usize)
+        };
+        let [left, right] = clip(columns, self.image.width);
+        let [top, bottom] = clip(rows, self.image.height);
+        let sum = |row: usize, column: usize| self.sums[row * (self.image.width + 1) + column];
+        let set = sum(bottom, right) + sum(top, left) - (sum(top, right) + sum(bottom, left));
+        let all = [columns, rows].map(|[first, last]| (last + 1 - first) as u32);
+        [set, all[0] * all[1]]
+    }
 }
 
 /// A shape as it is enrolled: upright, 200 pixels long.
@@ -107,8 +124,18 @@ fn silhouette(folder: &Path, name: &str) -> Silhouette {
             high[axis] = high[axis].max(x);
         }
     }
+    let mut sums = vec![0; (width + 1) * (height + 1)];
+    for row in 0..height {
+        let mut along = 0;
+        for column in 0..width {
+            along += u32::from(image.pixels[row * width + column]);
+            let above = sums[row * (width + 1) + column + 1];
+            sums[(row + 1) * (width + 1) + column + 1] = above + along;
+        }
+    }
     Silhouette {
         class: class_of(name).to_owned(),
+        sums,
         centre: Point2::new(
             (low[0] + high[0]) as f64 / 2.0,
             (low[1] + high[1]) as f64 / 2.0,
@@ -130,13 +157,15 @@ fn drawn(shape: &Silhouette, turn_degrees: f64, raster: usize) -> PlaneImage {
         let u = shape.centre.x + cos * x - sin * y;
         [u, shape.centre.y + sin * x + cos * y]
     };
-    // Farther from the centre than this, no sample of a pixel is in the shape.
-    let around = 0.5 * shape.longest_side + 0.5 * per_pixel + 1.0;
+    // So far from the middle of a pixel are its samples at most, and the pixels that they fall into.
+    let reach = 0.5 * per_pixel + 1.0;
     for row in 0..side {
         for column in 0..side {
             let [u, v] = at(column as f64, row as f64);
-            let is_near = |x: f64, centre: f64| (x - centre).abs() < around;
-            if !is_near(u, shape.centre.x) || !is_near(v, shape.centre.y) {
+            let around = |x: f64| [(x - reach).floor() as i64, (x + reach).ceil() as i64];
+            let [num_set, num] = shape.num_set(around(u), around(v));
+            if num_set == 0 || num_set == num {
+                image.pixels[row * side + column] = u8::from(num_set > 0);
                 continue;
             }
             // The majority of nine samples per pixel.
