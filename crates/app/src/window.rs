@@ -184,12 +184,7 @@ impl Window {
         window.state.session.language.make_current();
         window.state.notices.extend(problem.map(Notice::from));
         let is_second = window.data_lock.is_taken;
-        if is_second {
-            let advice = text!("shell-second-window-advice");
-            let notice = Notice::look(text!("shell-second-window"), advice);
-            let notices = &mut window.state.notices;
-            notices.push(notice.about(NoticeTopic::SecondWindow));
-        }
+        window.state.notices.extend(is_second.then(second_window));
         if let (true, Some(recipes)) = (is_first_start, recipes) {
             window.use_default_recipe(recipes);
         }
@@ -591,6 +586,13 @@ impl eframe::App for Window {
         }
         self.memory.finish();
     }
+}
+
+/// The notice of a window that is not the first with its data folder.
+fn second_window() -> Notice {
+    let advice = text!("shell-second-window-advice");
+    let notice = Notice::look(text!("shell-second-window"), advice);
+    notice.about(NoticeTopic::SecondWindow)
 }
 
 /// Name of the lock file in the folder of the history.
