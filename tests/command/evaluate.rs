@@ -10,8 +10,12 @@ use serde_json::Value;
 
 use crate::workplace::{Ran, Workplace};
 
-/// Simulates seven cases: two placements of three parts, and a box.
+/// Leaves seven simulated cases there: two placements of three parts, and a box.
 fn with_cases(place: &Workplace) {
+    place.with_made(&["cases"], make_cases);
+}
+
+fn make_cases(place: &Workplace) {
     let parts = ["--part", "fender,grille,front_door", "--num", "6"];
     let simulate = ["simulate", "--cases", "cases", "--seed", "40"];
     let placements = ["--placement", "facing,placed"];
@@ -257,9 +261,9 @@ fn cases_do_not_get_into_a_library() {
 #[test]
 fn the_same_arguments_make_the_same_cases() {
     let place = Workplace::new();
-    with_cases(&place);
+    make_cases(&place);
     let again = Workplace::new();
-    with_cases(&again);
+    make_cases(&again);
     assert_eq!(names(&place), names(&again));
     for case in names(&place).iter().filter(|name| name.contains("facing")) {
         for file in ["case.toml", "scene.png", "intrinsics.json"] {

@@ -33,17 +33,8 @@ use crate::{
 fn with_captures() -> Workplace {
     let place = Workplace::new();
     for (part, file) in [("fender", "fender.pcd"), ("hood", "hood.png")] {
-        place.accepted(&[
-            "simulate",
-            "--part",
-            part,
-            "--placement",
-            "facing",
-            "--seed",
-            "5",
-            "--out",
-            file,
-        ]);
+        let placed = ["--placement", "facing", "--seed", "5", "--out", file];
+        place.simulated(&[&["--part", part], &placed[..]].concat());
     }
     place
 }

@@ -50,6 +50,12 @@ fn the_pose_is_that_of_the_simulation() {
 
 /// Writes a depth image of two parts: at each pixel the nearer reading of two frames with one of them each.
 fn two_parts(place: &Workplace, merged: &str) {
+    place.with_made(&["two parts", merged], |place| {
+        make_two_parts(place, merged)
+    });
+}
+
+fn make_two_parts(place: &Workplace, merged: &str) {
     for (part, pose, name) in [
         ("front_door", "0deg 0deg 6deg -500mm 0mm 1900mm", "left"),
         ("trunk_lid", "0deg 0deg -11deg 520mm 0mm 1950mm", "right"),

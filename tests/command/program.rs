@@ -5,38 +5,58 @@ use std::{
     time::{Duration, SystemTime},
 };
 
-use crate::workplace::Workplace;
+use crate::{kit::copy_part, workplace::Workplace};
 
-/// A place with a calibrated cell, a door in front of its camera, and a stored path of three points.
+/// A place with a calibrated cell and a door in front of its camera. The door is its only part: a program reads all of them.
 fn shop() -> Workplace {
+    shop_at("kuka 1200 -400 1900 86 -5 120")
+}
+
+/// The same with a camera that looks along x of the robot's base; the door is 1.7 m in front of the base.
+fn shop_ahead() -> Workplace {
+    shop_at("kuka 470 0 1350 -90 0 -90")
+}
+
+fn shop_at(cell: &str) -> Workplace {
     let shop = Workplace::new();
-    let cell = "kuka 1200 -400 1900 86 -5 120";
-    shop.coded(0, &["calibrate", "set", cell, "--mount", "eye-to-hand"]);
-    hang(&shop, "front_door");
+    shop.with_made(&["shop", cell], |shop| {
+        enrol(shop, "front_door");
+        shop.coded(0, &["calibrate", "set", cell, "--mount", "eye-to-hand"]);
+        hang(shop, "front_door");
+    });
     shop
 }
 
-fn hang(shop: &Workplace, part: &str) {
-    let placed = [
-        "simulate",
-        "--part",
-        part,
-        "--placement",
-        "facing",
-        "--seed",
-        "5",
-        "--out",
-    ];
-    shop.coded(0, &[&placed[..], &["door.pcd"]].concat());
+/// Adds a shipped part to the library of the place.
+fn enrol(shop: &Workplace, part: &str) {
+    copy_part(part, &shop.path("data/partsight/library"));
 }
 
+fn hang(shop: &Workplace, part: &str) {
+    let placed = ["--placement", "facing", "--seed", "5", "--out", "door.pcd"];
+    shop.simulated(&[&["--part", part], &placed[..]].concat());
+}
+
+/// Captures a rack of three parts, which are enrolled.
+fn hang_three(shop: &Workplace) {
+    for part in ["radiator_support", "back_door"] {
+        enrol(shop, part);
+    }
+    let rack = ["--rack", "3", "--rack-kind", "apart", "--seed", "4"];
+    shop.simulated(&[&rack[..], &["--out", "rack.png"]].concat());
+}
+
+/// Stores a path of three points with the door.
 fn store_path(shop: &Workplace) {
-    shop.write(
-        "path.csv",
-        "nozzle_x_mm,nozzle_y_mm,nozzle_z_mm,direction_x,direction_y,direction_z\n\
-         -40,150,1130,0,0,1\n0,150,1130,0,0,1\n40,150,1130,0,0,1\n",
-    );
-    shop.coded(0, &["library", "path", "front_door", "path.csv"]);
+    shop.with_made(&["door with a path"], |shop| {
+        enrol(shop, "front_door");
+        shop.write(
+            "path.csv",
+            "nozzle_x_mm,nozzle_y_mm,nozzle_z_mm,direction_x,direction_y,direction_z\n\
+             -40,150,1130,0,0,1\n0,150,1130,0,0,1\n40,150,1130,0,0,1\n",
+        );
+        shop.coded(0, &["library", "path", "front_door", "path.csv"]);
+    });
 }
 
 #[test]
@@ -144,16 +164,7 @@ fn a_program_follows_a_line_where_the_language_can() {
 #[test]
 fn each_of_several_parts_has_a_path_of_its_own_and_none_of_an_earlier_frame_stays() {
     let shop = shop();
-    let rack = [
-        "simulate",
-        "--rack",
-        "3",
-        "--rack-kind",
-        "apart",
-        "--seed",
-        "4",
-    ];
-    shop.coded(0, &[&rack[..], &["--out", "rack.png"]].concat());
+    hang_three(&shop);
     let inspect = ["inspect", "rack.png", "--spray", "out.csv", "--json"];
     let several = ["--set", "segment.max_parts=3"];
     let line = shop.coded(0, &[&inspect[..], &several].concat()).json();
@@ -178,11 +189,7 @@ fn each_of_several_parts_has_a_path_of_its_own_and_none_of_an_earlier_frame_stay
 #[test]
 fn a_part_without_a_path_does_not_keep_the_next_one_from_its_program() {
     let shop = shop();
-    let rack = ["simulate", "--rack", "3", "--rack-kind", "apart"];
-    shop.coded(
-        0,
-        &[&rack[..], &["--seed", "4", "--out", "rack.png"]].concat(),
-    );
+    hang_three(&shop);
     let inspect = ["inspect", "rack.png", "--set", "segment.max_parts=3"];
     let line = shop.coded(0, &[&inspect[..], &["--json"]].concat()).json();
     let name = |index: usize| line["parts"][index]["part"].as_str().expect("a name");
@@ -351,10 +358,7 @@ fn a_path_is_checked_against_an_arm() {
 
 #[test]
 fn accelerations_are_checked_where_their_limits_are_known() {
-    let shop = Workplace::new();
-    let cell = "kuka 470 0 1350 -90 0 -90";
-    shop.coded(0, &["calibrate", "set", cell, "--mount", "eye-to-hand"]);
-    hang(&shop, "front_door");
+    let shop = shop_ahead();
     // Across, then down.
     shop.write(
         "path.csv",
@@ -414,10 +418,7 @@ fn accelerations_are_checked_where_their_limits_are_known() {
 
 #[test]
 fn a_better_place_of_the_arm_is_named_as_check_and_export_take_it() {
-    let shop = Workplace::new();
-    let cell = "kuka 470 0 1350 -90 0 -90";
-    shop.coded(0, &["calibrate", "set", cell, "--mount", "eye-to-hand"]);
-    hang(&shop, "front_door");
+    let shop = shop_ahead();
     store_path(&shop);
     let arm = ["--arm", "irb4600", "--nozzle", "kuka 0 0 250 0 -45 0"];
     let check = |code: i32, more: &[&str]| {
@@ -465,11 +466,7 @@ fn a_better_place_of_the_arm_is_named_as_check_and_export_take_it() {
 
 #[test]
 fn gun_and_arm_are_kept_clear_of_part_boxes_and_floor() {
-    let shop = Workplace::new();
-    // The camera looks along x of the robot's base; the door is 1.7 m in front of the base.
-    let cell = "kuka 470 0 1350 -90 0 -90";
-    shop.coded(0, &["calibrate", "set", cell, "--mount", "eye-to-hand"]);
-    hang(&shop, "front_door");
+    let shop = shop_ahead();
     store_path(&shop);
     let arm = ["--arm", "irb4600", "--nozzle", "kuka 0 0 250 0 -45 0"];
     let check = ["path", "check", "front_door", "--json"];
@@ -627,6 +624,7 @@ fn no_program_is_written_for_a_pose_that_another_one_fits_as_well_unless_forced(
 #[test]
 fn no_program_is_written_of_a_path_that_does_not_aim_at_the_part_unless_forced() {
     let shop = shop();
+    enrol(&shop, "grille");
     let plan = ["path", "plan", "grille", "--coat", "primer"];
     shop.run(&[&plan[..], &["--output", "grille.csv"]].concat());
     shop.write(
@@ -755,10 +753,7 @@ fn a_source_is_no_file_to_write_a_program_for() {
 
 #[test]
 fn a_rail_that_moves_along_the_path_is_an_axis_of_the_program() {
-    let shop = Workplace::new();
-    let cell = "kuka 470 0 1350 -90 0 -90";
-    shop.coded(0, &["calibrate", "set", cell, "--mount", "eye-to-hand"]);
-    hang(&shop, "front_door");
+    let shop = shop_ahead();
     store_path(&shop);
     let arm = ["--arm", "irb4600", "--nozzle", "kuka 0 0 250 0 -45 0"];
     let rail = ["--rail", "-y,-1500,2500,1000"];

@@ -14,19 +14,8 @@ use crate::{
 };
 
 fn capture(place: &Workplace, part: &str, side: &str, out: &str) {
-    place.accepted(&[
-        "simulate",
-        "--part",
-        part,
-        "--side",
-        side,
-        "--placement",
-        "facing",
-        "--seed",
-        "5",
-        "--out",
-        out,
-    ]);
+    let placed = ["--placement", "facing", "--seed", "5", "--out", out];
+    place.simulated(&[&["--part", part, "--side", side], &placed[..]].concat());
 }
 
 /// The selectable text of the page; `None` if the program that reads it is missing.
@@ -82,8 +71,8 @@ fn whoever_unpacks_a_problem_report_sees_the_same() {
 #[test]
 fn each_of_several_parts_has_a_report() {
     let place = Workplace::new();
-    let rack = ["simulate", "--rack", "3", "--rack-kind", "apart"];
-    place.accepted(&[&rack[..], &["--seed", "4", "--out", "rack.png"]].concat());
+    let rack = ["--rack", "3", "--rack-kind", "apart", "--seed", "4"];
+    place.simulated(&[&rack[..], &["--out", "rack.png"]].concat());
     let report = ["report", "rack.png", "--format", "json,csv", "--out"];
     let ran = place.accepted(&[&report[..], &["all", "--set", "segment.max_parts=3"]].concat());
     assert_eq!(ran.out.lines().count(), 3, "{}", ran.out);

@@ -13,8 +13,8 @@ fn with_scan(shots: &str) -> Workplace {
 }
 
 fn simulate(place: &Workplace, [part, seed, folder, shots]: [&str; 4]) {
-    let part = ["simulate", "--part", part, "--seed", seed];
-    place.accepted(&[&part[..], &["--scan", folder, "--shots", shots]].concat());
+    let part = ["--part", part, "--seed", seed];
+    place.simulated(&[&part[..], &["--scan", folder, "--shots", shots]].concat());
 }
 
 /// Changes the file of the scan's poses.

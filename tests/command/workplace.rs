@@ -1,9 +1,11 @@
 //! Folders in which tests run the built program.
 
 use std::{
+    collections::BTreeMap,
     fs,
     path::{Path, PathBuf},
     process::{Command, Output},
+    sync::{Arc, Mutex, OnceLock},
     time::SystemTime,
 };
 
@@ -78,13 +80,61 @@ impl Workplace {
 
     /// Enrols a simulated part into `parts` and leaves another capture of it in `NAME.pcd`.
     pub(crate) fn with_part(&self, name: &str) {
-        let reference = format!("{name}-reference.pcd");
-        let facing = ["--pose", "0 0 0 0 0 1.4", "--out", &reference];
-        self.accepted(&[&["simulate", "--part", name], &facing[..]].concat());
-        self.accepted(&["enrol", &reference, "--name", name, "--library", "parts"]);
-        let capture = format!("{name}.pcd");
-        let placed = ["--placement", "facing", "--seed", "5", "--out", &capture];
-        self.accepted(&[&["simulate", "--part", name], &placed[..]].concat());
+        self.with_made(&["part", name], |place| {
+            let reference = format!("{name}-reference.pcd");
+            let facing = ["--pose", "0 0 0 0 0 1.4", "--out", &reference];
+            place.accepted(&[&["simulate", "--part", name], &facing[..]].concat());
+            place.accepted(&["enrol", &reference, "--name", name, "--library", "parts"]);
+            let capture = format!("{name}.pcd");
+            let placed = ["--placement", "facing", "--seed", "5", "--out", &capture];
+            place.accepted(&[&["simulate", "--part", name], &placed[..]].concat());
+        });
+    }
+
+    /// Leaves here what `partsight simulate` writes with these arguments.
+    pub(crate) fn simulated(&self, args: &[&str]) {
+        let args = [&["simulate"], args].concat();
+        self.with_made(&args, |place| {
+            place.accepted(&args);
+        });
+    }
+
+    /// Leaves here what is made in a folder of its own for the first test that asks for this key. What is made must not
+    /// depend on where its folder is.
+    pub(crate) fn with_made(&self, key: &[&str], make: impl FnOnce(&Self)) {
+        type Files = Vec<(PathBuf, Vec<u8>)>;
+        static MADE: Mutex<BTreeMap<Vec<String>, Arc<OnceLock<Files>>>> =
+            Mutex::new(BTreeMap::new());
+        let key = key.iter().map(|word| (*word).to_owned()).collect();
+        let files = Arc::clone(MADE.lock().expect("sound").entry(key).or_default());
+        let files = files.get_or_init(|| {
+            let place = Self::new();
+            make(&place);
+            place.files()
+        });
+        for (name, bytes) in files {
+            let path = self.path(name);
+            fs::create_dir_all(path.parent().expect("a folder")).expect("made");
+            fs::write(path, bytes).expect("written");
+        }
+    }
+
+    /// All files in this folder, with their paths in it.
+    fn files(&self) -> Vec<(PathBuf, Vec<u8>)> {
+        let mut folders = vec![self.folder.path().to_owned()];
+        let mut files = Vec::new();
+        while let Some(folder) = folders.pop() {
+            for entry in fs::read_dir(folder).expect("listed") {
+                let path = entry.expect("an entry").path();
+                if path.is_dir() {
+                    folders.push(path);
+                } else {
+                    let name = path.strip_prefix(self.folder.path()).expect("below it");
+                    files.push((name.to_owned(), fs::read(&path).expect("read")));
+                }
+            }
+        }
+        files
     }
 
     pub(crate) fn write(&self, name: &str, text: &str) {

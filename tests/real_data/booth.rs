@@ -1,6 +1,10 @@
 //! Frames of a real paint shop, with the robot's poses.
 
-use std::{collections::BTreeMap, path::Path};
+use std::{
+    collections::BTreeMap,
+    path::{Path, PathBuf},
+    sync::OnceLock,
+};
 
 use nalgebra::Point3;
 use partsight::{
@@ -14,7 +18,9 @@ use partsight::{
         EnrolError, EnrolParams, EnrolWarning, Library, PartDescription, PartName, enrol_captured,
         enrol_surface, likenesses, surfaces_to_enrol,
     },
-    pipeline::{BUILT_IN_RECIPES, PoseChoice, Recipe, Unwatched, Verdict, built_in_recipe, run},
+    pipeline::{
+        BUILT_IN_RECIPES, Inspection, PoseChoice, Recipe, Unwatched, Verdict, built_in_recipe, run,
+    },
     robot::cell_check::{CellBaseline, CellFinding, CellLimits, CellView},
     stages::{
         pose::{PoseEstimate, PoseMethod},
@@ -116,6 +122,47 @@ fn scene(path: &Path) -> SceneCloud {
     }
 }
 
+/// The frames of the booth with the robot's poses, read and inspected once.
+pub(super) struct Booth {
+    pub(super) folder: PathBuf,
+    pub(super) truth: Truth,
+    /// The shipped parts, and the fender and the door of the booth, each enrolled from its reference frame.
+    pub(super) library: Library,
+    /// By the name of the file: the frame, and what the default recipe finds in it.
+    pub(super) inspected: BTreeMap<String, (SceneCloud, Inspection)>,
+}
+
+impl Booth {
+    /// `None`, with a message, without the data.
+    pub(super) fn read() -> Option<&'static Self> {
+        static READ: OnceLock<Booth> = OnceLock::new();
+        let folder = data_folder()?.join("booth");
+        Some(READ.get_or_init(|| {
+            let truth = Truth::read(&folder);
+            let mut library = shipped_library();
+            for file in truth.reference.values() {
+                let about = about(&format!("booth_{}", truth.frames[file].part));
+                let enrolled =
+                    enrol_captured(&scene(&folder.join(file)), &about, &EnrolParams::default());
+                library.references.push(enrolled.expect("a part").reference);
+            }
+            let files: Vec<&String> = truth.frames.keys().collect();
+            let inspected = map_each(files.len(), num_cores(), |i| {
+                let scene = scene(&folder.join(files[i]));
+                let found = run(&scene, &library, &Recipe::default(), &Unwatched);
+                (files[i].clone(), (scene, found.expect("not cancelled")))
+            });
+            let inspected = inspected.into_iter().collect();
+            Self {
+                folder,
+                truth,
+                library,
+                inspected,
+            }
+        }))
+    }
+}
+
 #[test]
 fn the_part_is_cut_out_of_a_booth_as_a_hand_would() {
     let Some(data) = data_folder() else { return };
@@ -145,17 +192,6 @@ fn about(name: &str) -> PartDescription {
         at: jiff::Timestamp::UNIX_EPOCH,
         simulated: false,
     }
-}
-
-/// The shipped parts, and the fender and the door of the booth, each enrolled from its reference frame.
-pub(super) fn library(booth: &Path, truth: &Truth) -> Library {
-    let mut library = shipped_library();
-    for file in truth.reference.values() {
-        let about = about(&format!("booth_{}", truth.frames[file].part));
-        let enrolled = enrol_captured(&scene(&booth.join(file)), &about, &EnrolParams::default());
-        library.references.push(enrolled.expect("a part").reference);
-    }
-    library
 }
 
 #[test]
@@ -255,26 +291,19 @@ fn a_list_of_points_is_accepted_in_spite_of_stray_points_and_copies() {
 
 #[test]
 fn parts_of_a_booth_are_named_and_placed_where_the_robot_says() {
-    let Some(data) = data_folder() else { return };
-    let booth = data.join("booth");
-    let truth = Truth::read(&booth);
-    let library = library(&booth, &truth);
+    let Some(booth) = Booth::read() else { return };
+    let truth = &booth.truth;
     let (mut num_named, mut num_accepted, mut num_approximate) = (0, 0, 0);
     for (file, frame) in &truth.frames {
-        let inspection = run(
-            &scene(&booth.join(file)),
-            &library,
-            &Recipe::default(),
-            &Unwatched,
-        );
-        let inspection = inspection.expect("not cancelled");
+        let (_, inspection) = &booth.inspected[file];
         let expected = format!("booth_{}", frame.part);
         let is_named =
             matches!(&inspection.verdict, Verdict::Part { part, .. } if *part == expected);
         if inspection.verdict.is_accepted() {
             assert!(is_named, "{file} is accepted as {:?}", inspection.verdict);
             let camera_from_part = truth.camera_from_part(file);
-            let pose = inspection.pose.and_then(Result::ok).expect("a pose");
+            let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
+            let pose = pose.expect("a pose");
             let middle = Point3::new(0.0, 0.0, 1.2);
             let off = pose_error(&pose.camera_from_part(), &camera_from_part, &middle);
             let (turn, shift) = (off.rotation.degrees(), off.shift.mm());
@@ -358,23 +387,19 @@ fn a_part_whose_pose_is_ambiguous_is_accepted_by_no_pose_method() {
 /// Reported: a depth that is 5 % too long is accepted, 65 mm off.
 #[test]
 fn most_parts_accepted_with_a_camera_5_percent_wrong_are_warned_of_and_none_with_a_right_one() {
-    let Some(data) = data_folder() else { return };
-    let booth = data.join("booth");
-    let truth = Truth::read(&booth);
-    let library = library(&booth, &truth);
+    let Some(booth) = Booth::read() else { return };
     let inspected = |file: &str, depth: f64, focal: f64| {
-        let Ok(FileContent::Depth(mut frame)) = open(&booth.join(file)) else {
+        let Ok(FileContent::Depth(mut frame)) = open(&booth.folder.join(file)) else {
             panic!("{file}");
         };
         frame.metres_per_unit *= depth;
         frame.intrinsics.fx *= focal;
         frame.intrinsics.fy *= focal;
         let scene = scene_from_frame(&frame);
-        run(&scene, &library, &Recipe::default(), &Unwatched).expect("not cancelled")
+        run(&scene, &booth.library, &Recipe::default(), &Unwatched).expect("not cancelled")
     };
     let (mut num_accepted, mut num_warned) = (0, 0);
-    for file in truth.frames.keys() {
-        let right = inspected(file, 1.0, 1.0);
+    for (file, (_, right)) in &booth.inspected {
         let off = right.found_pose().and_then(PoseEstimate::off_scale);
         assert_eq!(off, None, "{file}");
         for (depth, focal) in [(1.05, 1.0), (1.0, 0.95)] {
@@ -401,18 +426,13 @@ fn most_parts_accepted_with_a_camera_5_percent_wrong_are_warned_of_and_none_with
 /// part.
 #[test]
 fn a_camera_that_moves_before_a_part_is_never_told_as_a_part_that_moved() {
-    let Some(data) = data_folder() else { return };
-    let booth = data.join("booth");
-    let truth = Truth::read(&booth);
+    let Some(booth) = Booth::read() else { return };
     let at = jiff::Timestamp::UNIX_EPOCH;
-    let views: Vec<_> = truth
-        .frames
-        .iter()
-        .filter_map(|(file, frame)| {
-            let view = CellView::from_scene(&scene(&booth.join(file)), &SegmentParams::default());
-            Some((frame, view.ok()?))
-        })
-        .collect();
+    let views = booth.inspected.iter().filter_map(|(file, (scene, _))| {
+        let view = CellView::from_scene(scene, &SegmentParams::default());
+        Some((&booth.truth.frames[file], view.ok()?))
+    });
+    let views: Vec<_> = views.collect();
     let compared = map_each(views.len(), num_cores(), |i| {
         let (before, before_view) = &views[i];
         let one = std::slice::from_ref(before_view);

@@ -4,8 +4,6 @@
 //! So both parts are as the camera saw them, but the one that was moved casts no shadow, and its noise is that of nearer
 //! readings.
 
-use std::path::Path;
-
 use nalgebra::{Point3, Translation3, Vector3};
 use partsight::{
     files::{FileContent, open},
@@ -14,13 +12,11 @@ use partsight::{
         parallel::{map_each, num_cores},
         rigid::{RigidTransform, pose_error},
     },
-    library::Library,
-    pipeline::{Inspection, Recipe, Unwatched, run, run_all},
+    pipeline::{Inspection, Recipe, Unwatched, run_all},
     stages::{pose::PoseEstimate, scene::scene_from_frame},
 };
 
-use super::booth::{Truth, library};
-use crate::data_folder;
+use super::booth::Booth;
 
 /// A frame whose part is accepted.
 struct Shown {
@@ -42,15 +38,14 @@ const CUT_PIXELS: usize = 4;
 
 impl Shown {
     /// Reads a frame; `None` if its part is not accepted.
-    fn read(booth: &Path, file: &str, truth: &Truth, library: &Library) -> Option<Self> {
-        let Ok(FileContent::Depth(frame)) = open(&booth.join(file)) else {
-            panic!("{file}: no depth image");
-        };
-        let scene = scene_from_frame(&frame);
-        let found = run(&scene, library, &Recipe::default(), &Unwatched).expect("not cancelled");
+    fn read(booth: &Booth, file: &str) -> Option<Self> {
+        let (scene, found) = &booth.inspected[file];
         if !found.verdict.is_accepted() {
             return None;
         }
+        let Ok(FileContent::Depth(frame)) = open(&booth.folder.join(file)) else {
+            panic!("{file}: no depth image");
+        };
         let width = frame.intrinsics.width;
         let mut view = vec![false; frame.depth.len()];
         for (readings, view) in frame.depth.chunks(width).zip(view.chunks_mut(width)) {
@@ -72,11 +67,11 @@ impl Shown {
         let is_cut = |i: &&u32| !is_inside(**i as usize, CUT_PIXELS);
         Some(Self {
             file: file.to_owned(),
-            part: format!("booth_{}", truth.frames[file].part),
+            part: format!("booth_{}", booth.truth.frames[file].part),
             points: part.indices.iter().map(point).collect(),
             cut: part.indices.iter().filter(is_cut).map(point).collect(),
             view,
-            camera_from_part: truth.camera_from_part(file),
+            camera_from_part: booth.truth.camera_from_part(file),
             frame,
         })
     }
@@ -244,17 +239,12 @@ fn assign<'a>(parts: &mut [Hung<'a>; 2], found: &'a [Inspection], what: &str) {
 
 #[test]
 fn both_parts_of_a_composed_frame_are_named_and_none_is_accepted_where_it_is_not() {
-    let Some(data) = data_folder() else { return };
-    let booth = data.join("booth");
-    let truth = Truth::read(&booth);
-    let library = library(&booth, &truth);
-    let files: Vec<&String> = truth.frames.keys().collect();
-    let shown = map_each(files.len(), num_cores(), |i| {
-        Shown::read(&booth, files[i], &truth, &library)
-    });
+    let Some(booth) = Booth::read() else { return };
+    let files = booth.inspected.keys();
+    let shown: Vec<Shown> = files.filter_map(|file| Shown::read(booth, file)).collect();
     let shown_in = |name: &str| {
         let file = format!("{name}.png");
-        let found = shown.iter().flatten().find(|shown| shown.file == file);
+        let found = shown.iter().find(|shown| shown.file == file);
         found.unwrap_or_else(|| panic!("the part in {file} is not accepted"))
     };
     let mut recipe = Recipe::default();
@@ -266,7 +256,7 @@ fn both_parts_of_a_composed_frame_are_named_and_none_is_accepted_where_it_is_not
         let frame = into.with(of, shift);
         let frame = frame.unwrap_or_else(|| panic!("{:?} cannot be composed", PAIRS[i]));
         let scene = scene_from_frame(&frame);
-        let found = run_all(&scene, &library, &recipe, &Unwatched).expect("not cancelled");
+        let found = run_all(&scene, &booth.library, &recipe, &Unwatched).expect("not cancelled");
         (into, of, shift, found)
     });
     let (mut num_named, mut num_accepted) = (0, 0);

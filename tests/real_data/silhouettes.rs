@@ -9,7 +9,7 @@ use partsight::{
     stages::{
         contour::{Contour, ContourParams, find_contour},
         project::PlaneImage,
-        rank::{EXHAUSTIVE_UP_TO, Matcher, Query, RankParams, rank, rank_by},
+        rank::{EXHAUSTIVE_UP_TO, Query, RankParams, rank, rank_by},
         reference::Reference,
         signature::{FanSignature, SignatureParams, describe},
     },
@@ -22,8 +22,25 @@ use crate::data_folder;
 struct Silhouette {
     class: String,
     image: BinaryImage,
+    /// Number of set pixels above each row and left of each column.
+    sums: Vec<u32>,
     centre: Point2<f64>,
     longest_side: f64,
+}
+
+impl Silhouette {
+    /// Number of set pixels in these columns and rows, each from the first to the last, and of all of them.
+    fn num_set(&self, columns: [i64; 2], rows: [i64; 2]) -> [u32; 2] {
+        let clip = |[first, last]: [i64; 2], size: usize| {
+            [first, last + 1].map(|end| end.clamp(0, size as i64) as usize)
+        };
+        let [left, right] = clip(columns, self.image.width);
+        let [top, bottom] = clip(rows, self.image.height);
+        let sum = |row: usize, column: usize| self.sums[row * (self.image.width + 1) + column];
+        let set = sum(bottom, right) + sum(top, left) - (sum(top, right) + sum(bottom, left));
+        let all = [columns, rows].map(|[first, last]| (last + 1 - first) as u32);
+        [set, all[0] * all[1]]
+    }
 }
 
 /// A shape as it is enrolled: upright, 200 pixels long.
@@ -107,8 +124,18 @@ fn silhouette(folder: &Path, name: &str) -> Silhouette {
             high[axis] = high[axis].max(x);
         }
     }
+    let mut sums = vec![0; (width + 1) * (height + 1)];
+    for row in 0..height {
+        let mut along = 0;
+        for column in 0..width {
+            along += u32::from(image.pixels[row * width + column]);
+            let above = sums[row * (width + 1) + column + 1];
+            sums[(row + 1) * (width + 1) + column + 1] = above + along;
+        }
+    }
     Silhouette {
         class: class_of(name).to_owned(),
+        sums,
         centre: Point2::new(
             (low[0] + high[0]) as f64 / 2.0,
             (low[1] + high[1]) as f64 / 2.0,
@@ -125,21 +152,29 @@ fn drawn(shape: &Silhouette, turn_degrees: f64, raster: usize) -> PlaneImage {
     let (sin, cos) = turn_degrees.to_radians().sin_cos();
     let per_pixel = shape.longest_side / raster as f64;
     let mut image = BinaryImage::new(side, side);
+    let at = |column: f64, row: f64| {
+        let [x, y] = [column, row].map(|n| (n - side as f64 / 2.0) * per_pixel);
+        let u = shape.centre.x + cos * x - sin * y;
+        [u, shape.centre.y + sin * x + cos * y]
+    };
+    // So far from the middle of a pixel are its samples at most, and the pixels that they fall into.
+    let reach = 0.5 * per_pixel + 1.0;
     for row in 0..side {
         for column in 0..side {
+            let [u, v] = at(column as f64, row as f64);
+            let around = |x: f64| [(x - reach).floor() as i64, (x + reach).ceil() as i64];
+            let [num_set, num] = shape.num_set(around(u), around(v));
+            if num_set == 0 || num_set == num {
+                image.pixels[row * side + column] = u8::from(num_set > 0);
+                continue;
+            }
             // The majority of nine samples per pixel.
-            let set = (0..9)
-                .filter(|k| {
-                    let x = (column as f64 + f64::from(k % 3 - 1) / 3.0 - side as f64 / 2.0)
-                        * per_pixel;
-                    let y =
-                        (row as f64 + f64::from(k / 3 - 1) / 3.0 - side as f64 / 2.0) * per_pixel;
-                    let u = shape.centre.x + cos * x - sin * y;
-                    let v = shape.centre.y + sin * x + cos * y;
-                    shape.image.is_set(u.round() as i64, v.round() as i64)
-                })
-                .count();
-            image.pixels[row * side + column] = u8::from(set >= 5);
+            let set = (0..9).filter(|k| {
+                let [across, down] = [k % 3 - 1, k / 3 - 1].map(|n| f64::from(n) / 3.0);
+                let [u, v] = at(column as f64 + across, row as f64 + down);
+                shape.image.is_set(u.round() as i64, v.round() as i64)
+            });
+            image.pixels[row * side + column] = u8::from(set.count() >= 5);
         }
     }
     PlaneImage::from_image(image, Metres(1.0 / raster as f64))
@@ -151,17 +186,7 @@ fn described(plane: &PlaneImage) -> (Contour, FanSignature) {
     (contour, signature)
 }
 
-fn num_right(
-    shapes: &[&Upright],
-    references: &[Reference],
-    matcher: Matcher,
-    turn: f64,
-    raster: usize,
-) -> usize {
-    let params = RankParams {
-        matcher,
-        ..RankParams::default()
-    };
+fn num_right(shapes: &[&Upright], references: &[Reference], turn: f64, raster: usize) -> usize {
     let is_right = |Upright { shape, .. }: &&&Upright| {
         let plane = drawn(shape, turn, raster);
         let (contour, signature) = described(&plane);
@@ -170,7 +195,7 @@ fn num_right(
             contour: &contour,
             signature: &signature,
         };
-        let ranking = rank(&query, references, &params);
+        let ranking = rank(&query, references, &RankParams::default());
         ranking.entries[0].part == shape.class
     };
     shapes.iter().filter(is_right).count()
@@ -188,12 +213,13 @@ fn a_shape_is_found_again_turned_flipped_and_at_another_resolution() {
         ("both axes flipped", 180.0, 200),
         ("160 pixels instead of 200", 0.0, 160),
     ] {
-        let by_default = num_right(&shapes, &references, Matcher::Default, turn, raster);
-        let by_paper = num_right(&shapes, &references, Matcher::Paper, turn, raster);
-        eprintln!("{what}: default {by_default}/35, paper {by_paper}/35");
-        assert!(by_default >= 34, "{what}: only {by_default} of 35");
+        let num_right = num_right(&shapes, &references, turn, raster);
+        assert!(num_right >= 34, "{what}: only {num_right} of 35");
     }
 }
+
+/// Number of shapes that are also ranked by three workers.
+const NUM_BY_THREE: usize = 20;
 
 /// All shapes are enrolled: too many to compare each in full.
 #[test]
@@ -213,7 +239,9 @@ fn a_library_of_hundreds_ranks_the_same_sixteen_first_as_all_compared_in_full() 
             signature: &signature,
         };
         let ranking = rank_by(1, &query, &references, &params);
-        assert_eq!(ranking, rank_by(3, &query, &references, &params));
+        if num < NUM_BY_THREE {
+            assert_eq!(ranking, rank_by(3, &query, &references, &params));
+        }
         let some = references.chunks(EXHAUSTIVE_UP_TO);
         let parts = some.flat_map(|some| rank(&query, some, &params).entries);
         let mut scores: Vec<f64> = parts.map(|entry| entry.score).collect();

@@ -36,7 +36,7 @@ use shell::{
     inspection::{
         camera::Camera,
         inspected::Inspected,
-        library_cache::{LibraryCache, ReadTakenVersion},
+        library_cache::{LibraryCache, LoadedLibrary, ReadTakenVersion},
     },
     notice::{Notice, NoticeTopic},
     rack,
@@ -90,6 +90,8 @@ pub struct WindowOptions {
     pub language: Option<Language>,
     /// Reads from which published version a library was taken; `None` in a build that takes none.
     pub taken_version: Option<ReadTakenVersion>,
+    /// A library loaded before, from which the parts that have not changed are taken.
+    pub former_library: Option<Arc<LoadedLibrary>>,
 }
 
 /// The window.
@@ -131,6 +133,7 @@ impl Window {
             camera,
             language,
             taken_version,
+            former_library,
         } = options;
         let is_first_start = settings.as_ref().is_some_and(|path| !path.exists());
         language.unwrap_or_default().make_current();
@@ -146,7 +149,8 @@ impl Window {
         let library_cache =
             LibraryCache::new(library.or_else(|| remembered.library.clone()), camera)
                 .with_history(Arc::clone(&kept))
-                .with_versions(taken_version);
+                .with_versions(taken_version)
+                .with_former(former_library);
         let gpu = render_state
             .map(ViewportGpu::of_window)
             .ok_or_else(|| ViewError::NoDevice {

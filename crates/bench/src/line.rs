@@ -140,7 +140,13 @@ pub fn line_cases(
         cases.extend(map_each(num, num_workers, |k| {
             let number = (first + k) as u64;
             let (setup, frames_per_second, is_counted) = setup(number, first_seed + number);
-            line_case(setup, frames_per_second, is_counted, library)
+            line_case(
+                setup,
+                PARTS_PER_LINE,
+                frames_per_second,
+                is_counted,
+                library,
+            )
         }));
         for _ in 0..num {
             after_each();
@@ -224,6 +230,7 @@ impl Watched<'_> {
 
 fn line_case(
     setup: LineSetup,
+    num_parts: usize,
     frames_per_second: f64,
     is_counted: bool,
     library: &Library,
@@ -252,7 +259,7 @@ fn line_case(
             let direction = watched.line.direction();
             case.direction_off = line.direction.angle(&direction).to_degrees();
             case.scale_off = line.way_per_count.0 / setup.encoder.way_per_count.0 - 1.0;
-            case.follow(&watched, line);
+            case.follow(&watched, line, num_parts);
         }
         Err(why) => case.not_calibrated = Some(why.to_string()),
     }
@@ -260,11 +267,11 @@ fn line_case(
 }
 
 impl LineCase {
-    fn follow(&mut self, watched: &Watched<'_>, line: LineCalibration) {
-        let clear: Vec<(f64, f64)> = (0..PARTS_PER_LINE as u64)
+    fn follow(&mut self, watched: &Watched<'_>, line: LineCalibration, num_parts: usize) {
+        let clear: Vec<(f64, f64)> = (0..num_parts as u64)
             .map(|number| watched.clear_way(number))
             .collect();
-        self.parts = (0..PARTS_PER_LINE as u64)
+        self.parts = (0..num_parts as u64)
             .map(|number| LinePartCase {
                 part: watched.kind_of(number).name().to_owned(),
                 swings: watched.line.swings(number),
@@ -278,7 +285,7 @@ impl LineCase {
         // Whole frames of the camera.
         let period = (period * self.frames_per_second).ceil() / self.frames_per_second;
         let start = watched.line.seconds_at(clear[0].0 - 0.3);
-        let end = watched.line.seconds_at(clear[PARTS_PER_LINE - 1].1 + 0.2);
+        let end = watched.line.seconds_at(clear[num_parts - 1].1 + 0.2);
         let mut sent = start;
         let mut now = start;
         while now < end {
@@ -393,8 +400,11 @@ mod tests {
             seed: 3_000_007,
             ..LineSetup::default()
         };
-        let case = line_case(setup, 15.0, true, &library);
+        // The last of them swings.
+        let num_parts = setup.swinging_every as usize;
+        let case = line_case(setup, num_parts, 15.0, true, &library);
         assert_eq!(case.not_calibrated, None);
+        assert_eq!(case.parts.iter().filter(|part| part.swings).count(), 1);
         // A refused row of something that is no part, such as a piece of one at the edge.
         assert!(case.num_surplus <= 1, "{case:?}");
         let mut num_off = 0;

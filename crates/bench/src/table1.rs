@@ -165,30 +165,6 @@ fn e_m2(source: &PointCloud, target: &Reference, pose: &RigidTransform) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use inspection::library::{LibraryPlace, PartName, open_library};
-
-    fn shipped(name: &str) -> Library {
-        let folder = std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
-            .join("reference_parts");
-        let place: LibraryPlace = open_library(Some(&folder)).expect("the shipped parts");
-        let load = place.load(&stages::reference::ReferenceParams::default());
-        let mut library = load.expect("loads").library;
-        let wanted = PartName::new(name).expect("a name");
-        library.references.retain(|r| r.name == wanted.as_str());
-        library
-    }
-
-    #[test]
-    fn icp_ga_and_global_solve_the_grille_from_t1_to_t5_and_icp_alone_does_not() {
-        let rows = table1(&shipped("grille"), || ());
-        assert_eq!(rows.len(), 5);
-        for row in &rows {
-            let [icp, icp_ga, global] = &row.attempts;
-            assert!(!icp.is_below_target(), "{row:?}");
-            assert!(icp_ga.is_below_target() && icp_ga.is_exact(), "{row:?}");
-            assert!(global.is_below_target() && global.is_exact(), "{row:?}");
-        }
-    }
 
     #[test]
     fn the_transforms_are_those_of_the_paper_in_the_order_zyx() {

@@ -49,13 +49,19 @@ pub fn copy_library(to: &Path) {
     for part in fs::read_dir(SHIPPED_PARTS).expect("the shipped parts") {
         let from = part.expect("a part").path();
         if from.is_dir() {
-            let to = to.join(from.file_name().expect("a name"));
-            fs::create_dir_all(&to).expect("made");
-            for file in fs::read_dir(from).expect("listed") {
-                let file = file.expect("a file").path();
-                fs::copy(&file, to.join(file.file_name().expect("a name"))).expect("copied");
-            }
+            let name = from.file_name().expect("a name");
+            copy_part(name.to_str().expect("a plain name"), to);
         }
+    }
+}
+
+/// Copies a shipped part into a library.
+pub fn copy_part(name: &str, library: &Path) {
+    let to = library.join(name);
+    fs::create_dir_all(&to).expect("made");
+    for file in fs::read_dir(Path::new(SHIPPED_PARTS).join(name)).expect("listed") {
+        let file = file.expect("a file").path();
+        fs::copy(&file, to.join(file.file_name().expect("a name"))).expect("copied");
     }
 }
 

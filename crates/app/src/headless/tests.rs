@@ -4,10 +4,12 @@
 use egui::{Key, Modifiers, PointerButton, Pos2};
 
 use super::*;
+use shell::inspection::library_cache::LibraryCache;
 
 fn open() -> Option<HeadlessWindow> {
     let options = WindowOptions {
         library: Some(::inspection::fixtures::SHIPPED_PARTS.into()),
+        former_library: Some(LibraryCache::default().get()),
         ..WindowOptions::default()
     };
     match HeadlessWindow::open([1440, 900], options) {

@@ -25,8 +25,8 @@ use simulate::{CellSetup, ObjectKind, PartKind, Side};
 use stages::fixtures::scene_of;
 
 use super::set_up::{
-    SMALL, USUAL, WindowHarness, act, act_in, history_of, open_with, plain_options, press, settle,
-    wait_for,
+    SMALL, USUAL, WindowHarness, act, act_in, history_of, let_pass, open_with, plain_options,
+    press, settle, wait_for,
 };
 
 fn open_at(size: Vec2, cases: &Path) -> WindowHarness {
@@ -319,7 +319,7 @@ fn a_changed_parameter_shows_at_once_and_can_be_used_undone_and_reset() {
     let accept_from = |harness: &mut WindowHarness, text: &str| {
         let field = |harness: &mut WindowHarness, act: &dyn Fn(&Node<'_>)| {
             act(&harness.get_by_role_and_label(Role::SpinButton, "Accept from"));
-            harness.run_steps(30);
+            let_pass(harness, 30);
         };
         field(harness, &|node| node.scroll_to_me());
         field(harness, &|node| node.click());
@@ -691,7 +691,7 @@ fn it_is_drawn_in_both_sizes_and_colours() {
             press(&mut harness, "Scaling: one core against several");
             press(&mut harness, "Measure scaling");
             harness.get_by_label("Measure scaling").scroll_to_me();
-            harness.run_steps(30);
+            let_pass(harness, 30);
             shot(&mut harness, "scaling");
         }
         act(&mut harness, Action::SwitchTheme);

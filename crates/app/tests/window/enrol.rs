@@ -30,8 +30,8 @@ use inspection::fixtures::copy_library;
 use stages::fixtures::facing_part;
 
 use super::set_up::{
-    SMALL, USUAL, WindowHarness, act, drop_file, enrol_of, history_of, open_with, plain_options,
-    press, settle, wait_for, wait_until, watch_folder,
+    SMALL, USUAL, WindowHarness, act, drop_file, enrol_of, history_of, let_pass, open_with,
+    plain_options, press, settle, wait_for, wait_until, watch_folder,
 };
 
 fn open_at(library: &Path, size: Vec2) -> WindowHarness {
@@ -156,7 +156,7 @@ fn enrol(harness: &mut WindowHarness, kind: PartKind, title: &str) {
 
 /// Lets the time pass after which a changed draft is saved, and waits for that.
 fn pass_time(harness: &mut WindowHarness) {
-    harness.run_steps(20);
+    let_pass(harness, 20);
     settle(harness);
 }
 
@@ -499,7 +499,7 @@ fn a_saved_part_is_brought_into_sight_and_marked_among_the_others_by_title() {
     write(&mut harness, "Title", "apron");
     write(&mut harness, "Name", "zzz_apron");
     press(&mut harness, "Save");
-    harness.run_steps(60);
+    let_pass(&mut harness, 60);
     let left_of = |title: &str| {
         let label = format!("Enrolled: {title}");
         harness.get_by_label(&label).rect().min.x
@@ -517,7 +517,7 @@ fn a_saved_part_is_brought_into_sight_and_marked_among_the_others_by_title() {
     press(&mut harness, "Enrolled: Zed");
     write(&mut harness, "Title", "Zebra");
     press(&mut harness, "Rename");
-    harness.run_steps(60);
+    let_pass(&mut harness, 60);
     let marked = harness.get_by_label("Enrolled: Zebra");
     assert_eq!(
         marked.accesskit_node().value().as_deref(),

@@ -18,8 +18,8 @@ use shell::{
 use super::{
     rack_editor::open_place,
     set_up::{
-        SMALL, WindowHarness, act, act_in, open, open_with, plain_options, press, wait_for,
-        wait_until,
+        SMALL, WindowHarness, act, act_in, let_pass, open, open_with, plain_options, press,
+        wait_for, wait_until,
     },
     several_parts::{open_rack, open_three_things},
 };
@@ -215,7 +215,7 @@ fn choose(harness: &mut WindowHarness, labels: &[&str]) {
     harness.run_steps(4);
     for label in labels {
         harness.get_by_label(label).click();
-        harness.run_steps(12);
+        let_pass(harness, 12);
     }
     harness.key_press(Key::Escape);
     harness.run_steps(4);

@@ -36,8 +36,8 @@ use stages::fixtures::facing_part;
 
 use super::{
     set_up::{
-        SMALL, USUAL, WindowHarness, act, act_in, choose_in_inspect, history_of, open, open_with,
-        plain_options, press, settle,
+        SMALL, USUAL, WindowHarness, act, act_in, choose_in_inspect, history_of, let_pass, open,
+        open_with, plain_options, press, settle,
     },
     shots::ScanFolder,
 };
@@ -755,7 +755,7 @@ fn turn_page(harness: &mut WindowHarness, pages: f32) {
         phase: egui::TouchPhase::Move,
         modifiers: egui::Modifiers::NONE,
     });
-    harness.run_steps(12);
+    let_pass(harness, 12);
 }
 
 #[test]

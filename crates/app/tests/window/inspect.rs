@@ -12,7 +12,6 @@ use shell::{
     action::Action,
     cell::RobotAction,
     inspection::{
-        camera::Camera,
         figures::StagePanel,
         inspected::{InspectRequest, inspect_all},
         library_cache::LibraryCache,
@@ -28,7 +27,7 @@ use stages::fixtures::facing_part;
 
 use super::robot::save_calibration;
 use super::set_up::{
-    SMALL, USUAL, WindowHarness, act, drop_file, enrol_of, inspect_of, open, open_with,
+    SMALL, USUAL, WindowHarness, act, drop_file, enrol_of, inspect_of, let_pass, open, open_with,
     plain_options, press, settle,
 };
 
@@ -190,7 +189,7 @@ fn the_pose_is_shown_in_the_robots_numbers_that_were_chosen() {
     harness
         .get_by_label("Convention: Matrix, 4×4")
         .scroll_to_me();
-    harness.run_steps(12);
+    let_pass(&mut harness, 12);
     harness.get_by_label("Convention: Matrix, 4×4").click();
     harness.run_steps(4);
     harness.get_by_label("FANUC W P R").click();
@@ -255,11 +254,7 @@ fn the_figures_of_a_pose_are_shown_only_with_the_name_of_their_part() {
             source: SceneSource::Cell { choice, number: 1 },
             recipe: Arc::default(),
         };
-        let library_cache = LibraryCache::new(
-            Some(::inspection::fixtures::SHIPPED_PARTS.into()),
-            Camera::default(),
-        );
-        let found = inspect_all(&request, &library_cache, &Unwatched);
+        let found = inspect_all(&request, &LibraryCache::default(), &Unwatched);
         let mut found = found.expect("inspected").remove(0);
         let unknown = Rejection::Unknown {
             nearest: "front_door".into(),
@@ -346,7 +341,7 @@ fn the_bars_of_the_enlarged_ranking_end_before_their_scores() {
 fn the_verdict_stays_in_sight_and_large_however_far_the_card_is_scrolled() {
     let mut harness = open_with(SMALL, plain_options());
     harness.get_by_label("Simulated frame 1").scroll_to_me();
-    harness.run_steps(12);
+    let_pass(&mut harness, 12);
     harness.key_press(Key::Space);
     settle(&mut harness);
     let shown = harness
@@ -448,7 +443,7 @@ fn notices_move_and_cover_no_control_in_any_workspace() {
             // A second press there reaches nothing for a while.
             let layer = |harness: &WindowHarness| harness.ctx.layer_id_at(at).map(|at| at.order);
             assert_eq!(layer(&harness), Some(Order::Middle), "{kind:?}");
-            harness.run_steps(60);
+            let_pass(&mut harness, 60);
             assert_ne!(layer(&harness), Some(Order::Middle), "{kind:?}");
         }
     }

@@ -26,7 +26,9 @@ use inspection::fixtures::copy_library;
 
 use super::{
     enrol, robot,
-    set_up::{SMALL, USUAL, WindowHarness, act, act_in, open_with, plain_options, press, settle},
+    set_up::{
+        SMALL, USUAL, WindowHarness, act, act_in, let_pass, open_with, plain_options, press, settle,
+    },
 };
 
 /// Opens the Paint workspace with a path over the fender.
@@ -335,7 +337,7 @@ fn the_base_of_the_arm_is_entered_a_better_one_applied_and_both_are_undone() {
     };
     let field = |harness: &mut WindowHarness, act: &dyn Fn(&Node<'_>)| {
         act(&harness.get_by_role_and_label(Role::SpinButton, "Base of the arm: X"));
-        harness.run_steps(30);
+        let_pass(harness, 30);
     };
     field(&mut harness, &|node| node.scroll_to_me());
     field(&mut harness, &|node| node.click());
@@ -412,7 +414,7 @@ fn a_menu_stays_below_its_button_and_closes_once_that_is_scrolled_away() {
             phase: egui::TouchPhase::Move,
             modifiers: Modifiers::NONE,
         });
-        harness.run_steps(30);
+        let_pass(harness, 30);
     };
     harness.get_by_label("Coat: primer").hover();
     harness.run_steps(2);

@@ -4,7 +4,13 @@
 //! these tests report that they are skipped. `UPDATE_SNAPSHOTS=1` redraws the pictures; look at them before you keep
 //! them.
 
-use std::{cell::RefCell, fs, path::PathBuf, sync::Arc, time::Duration};
+use std::{
+    cell::RefCell,
+    fs,
+    path::PathBuf,
+    sync::{Arc, LazyLock},
+    time::Duration,
+};
 
 use ::servo::StopReason;
 use app::{
@@ -57,28 +63,29 @@ const MAX_DIFFERENT: usize = 100;
 /// True if pictures can be compared with the kept ones; otherwise reports why not.
 #[expect(clippy::print_stderr, reason = "a test that skips must say why")]
 fn draws_in_software() -> bool {
-    if let Err(error) = ui::viewport::ViewportGpu::headless() {
-        geometry::fixtures::skipped("PARTSIGHT_REQUIRE_GPU", error);
-        return false;
+    /// The name and kind of the adapter, or why there is none.
+    static ADAPTER: LazyLock<Result<(String, DeviceType), String>> = LazyLock::new(|| {
+        ui::viewport::ViewportGpu::headless().map_err(|error| error.to_string())?;
+        let state = create_render_state(default_wgpu_setup(), RendererOptions::PREDICTABLE);
+        let adapter = state.adapter.get_info();
+        Ok((adapter.name, adapter.device_type))
+    });
+    match &*ADAPTER {
+        Err(error) => geometry::fixtures::skipped("PARTSIGHT_REQUIRE_GPU", error),
+        Ok((_, DeviceType::Cpu)) => return true,
+        Ok((name, _)) => eprintln!("skipped: {name} is no software renderer"),
     }
-    let state = create_render_state(default_wgpu_setup(), RendererOptions::PREDICTABLE);
-    let adapter = state.adapter.get_info();
-    if adapter.device_type == DeviceType::Cpu {
-        return true;
-    }
-    eprintln!("skipped: {} is no software renderer", adapter.name);
     false
 }
 
 /// The inspection of the cell's first frame, with fixed times and date.
 fn inspected() -> Inspected {
-    inspected_of(CellChoice::InTurn)
+    static INSPECTED: LazyLock<Inspected> = LazyLock::new(|| inspected_of(CellChoice::InTurn));
+    INSPECTED.clone()
 }
 
 fn inspected_of(choice: CellChoice) -> Inspected {
-    let parts = ::inspection::fixtures::SHIPPED_PARTS;
-    let library_cache = LibraryCache::new(Some(parts.into()), Camera::default());
-    inspected_by(choice, &library_cache)
+    inspected_by(choice, &LibraryCache::default())
 }
 
 fn inspected_by(choice: CellChoice, library_cache: &LibraryCache) -> Inspected {

@@ -12,7 +12,7 @@ use shell::{
 };
 
 use super::{
-    set_up::{WindowHarness, act, open, settle},
+    set_up::{WindowHarness, act, let_pass, open, settle},
     several_parts::{open_rack, open_three_things},
 };
 
@@ -73,7 +73,7 @@ fn a_place_is_made_of_the_part_in_front_and_a_turned_part_is_refused() {
     let add = harness.get_by_label("Add a place for this part");
     assert!(add.accesskit_node().is_disabled());
     add.hover();
-    harness.run_steps(30);
+    let_pass(&mut harness, 30);
     harness.get_by_label_contains("It hangs at place 1; “Take the part in front”");
     let path = folder.path().join("rack.toml");
     act(&mut harness, Action::Rack(RackAction::Save(path.clone())));

@@ -15,10 +15,11 @@ use app::{
         inspect::{InspectAction, InspectFile, InspectState, InspectWorkspace},
     },
 };
-use egui::Vec2;
+use egui::{Vec2, ViewportId};
 use egui_kittest::{Harness, kittest::Queryable as _};
 use shell::{
     action::{Action, DialogRequest},
+    inspection::library_cache::LibraryCache,
     source::live::SourceState,
     state::State,
     workspace::{ShellContext, Workspace},
@@ -41,10 +42,11 @@ pub(crate) fn open_with(size: Vec2, options: WindowOptions) -> WindowHarness {
     harness
 }
 
-/// Options for a window with the shipped parts, without the user's library and settings.
+/// Options for a window with the shipped parts, which are loaded once for all, without the user's library and settings.
 pub(crate) fn plain_options() -> WindowOptions {
     WindowOptions {
         library: Some(::inspection::fixtures::SHIPPED_PARTS.into()),
+        former_library: Some(LibraryCache::default().get()),
         ..WindowOptions::default()
     }
 }
@@ -57,9 +59,51 @@ pub(crate) fn open() -> WindowHarness {
 /// Draws until no task is running.
 pub(crate) fn settle(harness: &mut WindowHarness) {
     wait_for(harness, Window::is_idle);
-    harness.run_steps(8);
+    let_pass(harness, 8);
+    // Time may have brought about more work.
+    if !harness.state().is_idle() {
+        wait_for(harness, Window::is_idle);
+    }
     // Check everywhere that every control has a name.
     harness.check_accessibility();
+}
+
+/// Lets the time of so many steps pass. As on a screen, only the frames that the window asks for are drawn, and the last.
+pub(crate) fn let_pass(harness: &mut WindowHarness, num_steps: u32) {
+    // One frame for each event that waits.
+    harness.step();
+    let step = f64::from(harness.input().predicted_dt);
+    let end = now(harness) + step * f64::from(num_steps - 1);
+    let is_far = |harness: &WindowHarness| now(harness) + 2.5 * step < end;
+    while is_far(harness) && asks_for_frame(harness) {
+        harness.step();
+    }
+    if is_far(harness) {
+        // What was to be drawn later is due now, with what follows from it.
+        harness.input_mut().time = Some(end - step);
+        harness.step();
+        for _ in 0..6 {
+            if asks_for_frame(harness) {
+                harness.input_mut().time = Some(now(harness) + 1e-3);
+                harness.step();
+            }
+        }
+        harness.input_mut().time = None;
+    }
+    while now(harness) + 0.5 * step < end {
+        harness.step();
+    }
+}
+
+/// The window's clock, seconds.
+fn now(harness: &WindowHarness) -> f64 {
+    harness.ctx.input(|input| input.time)
+}
+
+/// True if the window wants to draw another frame at once.
+fn asks_for_frame(harness: &WindowHarness) -> bool {
+    let viewport = harness.output().viewport_output.get(&ViewportId::ROOT);
+    viewport.is_some_and(|viewport| viewport.repaint_delay.is_zero())
 }
 
 /// Draws until the state meets the condition.
@@ -76,12 +120,12 @@ pub(crate) fn wait_for(harness: &mut WindowHarness, is_so: impl Fn(&Window) -> b
     let until = Instant::now() + Duration::from_mins(3);
     let moving = (0..20).map(|_| 0.1);
     let mut ticks = moving.chain(std::iter::repeat(1e-3));
-    let mut pauses_ms = (5..30).chain(std::iter::repeat(30));
+    let mut pauses_ms = [5, 10, 20, 30].into_iter().chain(std::iter::repeat(40));
     harness.step();
     while !is_so(harness.state()) {
         assert!(Instant::now() < until, "still working after three minutes");
         thread::sleep(Duration::from_millis(pauses_ms.next().unwrap_or_default()));
-        let time = harness.ctx.input(|input| input.time) + ticks.next().unwrap_or_default();
+        let time = now(harness) + ticks.next().unwrap_or_default();
         harness.input_mut().time = Some(time);
         harness.step();
     }
@@ -91,7 +135,7 @@ pub(crate) fn wait_for(harness: &mut WindowHarness, is_so: impl Fn(&Window) -> b
 /// Scrolls the control of this label into view, presses it, and waits for the result.
 pub(crate) fn press(harness: &mut WindowHarness, label: &str) {
     harness.get_by_label(label).scroll_to_me();
-    harness.run_steps(12);
+    let_pass(harness, 12);
     harness.get_by_label(label).click();
     settle(harness);
 }

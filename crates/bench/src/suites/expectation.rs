@@ -158,11 +158,10 @@ impl ExpectationFigures {
 mod tests {
     use super::*;
     use crate::suites::{SuiteLibraries, TUNING_SEED};
-    use inspection::library::EnrolParams;
 
     #[test]
     fn right_wrong_missing_and_surplus_parts_are_told_apart() {
-        let libraries = SuiteLibraries::enrol(&EnrolParams::default()).expect("eight parts");
+        let libraries = SuiteLibraries::shared();
         let suite = Suite::RackApart;
         let frames = suite.frames(4, TUNING_SEED);
         let mut figures = ExpectationFigures::none();

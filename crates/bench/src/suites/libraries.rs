@@ -25,6 +25,15 @@ impl SuiteLibraries {
         Ok(Self { left, both_sides })
     }
 
+    /// Those of the tests, enrolled once.
+    #[cfg(test)]
+    pub(crate) fn shared() -> &'static Self {
+        static ENROLLED: std::sync::LazyLock<SuiteLibraries> = std::sync::LazyLock::new(|| {
+            SuiteLibraries::enrol(&EnrolParams::default()).expect("eight parts")
+        });
+        &ENROLLED
+    }
+
     /// Returns the library that a suite is inspected against.
     pub fn for_suite(&self, suite: Suite) -> &Library {
         match suite {

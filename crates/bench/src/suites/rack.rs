@@ -154,19 +154,12 @@ impl RackFigures {
 mod tests {
     use super::*;
     use crate::suites::{MEASURING_SEED, SuiteLibraries, TUNING_SEED, run_suite};
-    use inspection::{
-        library::EnrolParams,
-        pipeline::{Recipe, Unwatched, run_all},
-    };
+    use inspection::pipeline::{Recipe, Unwatched, run_all};
     use stages::scene::scene_from_frame;
-
-    fn libraries() -> SuiteLibraries {
-        SuiteLibraries::enrol(&EnrolParams::default()).expect("eight parts")
-    }
 
     #[test]
     fn every_thing_on_a_rack_is_a_case() {
-        let libraries = libraries();
+        let libraries = SuiteLibraries::shared();
         for suite in [Suite::RackEqual, Suite::RackMirrored, Suite::RackOnBar] {
             let frames = suite.frames(2, TUNING_SEED);
             let library = libraries.for_suite(suite);
@@ -196,7 +189,7 @@ mod tests {
 
     #[test]
     fn a_stool_beside_large_parts_is_told_as_unknown_and_the_bar_that_they_hang_on_is_not() {
-        let libraries = libraries();
+        let libraries = SuiteLibraries::shared();
         for (suite, index) in [(Suite::RackForeign, 1), (Suite::RackOnBar, 0)] {
             let frames = suite.frames(2, MEASURING_SEED);
             let library = libraries.for_suite(suite);
@@ -216,7 +209,7 @@ mod tests {
         let mut recipe = Recipe::default();
         recipe.segment.max_parts = 2;
         let scene = scene_from_frame(&shot.frame);
-        let libraries = libraries();
+        let libraries = SuiteLibraries::shared();
         let found = run_all(&scene, libraries.for_suite(suite), &recipe, &Unwatched);
         let found = found.expect("not cancelled");
         let result = |shot: &SuiteShot, found: &[Inspection]| {

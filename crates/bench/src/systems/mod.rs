@@ -204,35 +204,6 @@ impl<'a> Systems<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::suites::{SuiteLibraries, TUNING_SEED, run_suite};
-    use inspection::library::EnrolParams;
-
-    #[test]
-    fn every_system_tells_the_parts_apart_when_they_face_the_camera() {
-        let libraries = SuiteLibraries::enrol(&EnrolParams::default()).expect("eight parts");
-        let (suite, recipe) = (Suite::Standard, Recipe::default());
-        let systems = Systems::prepare(libraries.for_suite(suite)).expect("can be described");
-        let frames = suite.frames(1, TUNING_SEED);
-        let mut cases = Vec::new();
-        let library = libraries.for_suite(suite);
-        run_suite(suite, &frames, library, &recipe, |frame| {
-            let (case, _) = &frame.cases[0];
-            cases.extend(systems.recognise(suite, case, &frame.scene, &recipe));
-        });
-        assert_eq!(cases.len(), 8);
-        let preparations = systems.preparations();
-        assert_eq!(preparations.len(), System::ALL.len());
-        for (index, system) in System::ALL.iter().enumerate() {
-            let num_right = cases.iter().filter(|case| case.is_right(index)).count();
-            // The paper's matcher is right on about two of three frames.
-            let least = if *system == System::Paper { 3 } else { 7 };
-            assert!(num_right >= least, "{system:?}: {num_right} of 8");
-            let is_descriptor = preparations[index].num_rows.is_some();
-            for case in &cases {
-                assert_eq!(case.answers[index].size.is_some(), is_descriptor);
-            }
-        }
-    }
 
     #[test]
     fn a_frame_without_a_part_is_right_for_nobody() {

@@ -55,12 +55,11 @@ pub fn enrol_part(
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use crate::fixtures::standard_library;
 
     #[test]
     fn no_simulated_part_looks_the_same_after_a_turn() {
-        let library = enrol_standard_parts(&EnrolParams::default()).expect("eight parts");
-        for reference in &library.references {
+        for reference in &standard_library().references {
             assert_eq!(reference.own_turn(), None, "{}", reference.name);
         }
     }

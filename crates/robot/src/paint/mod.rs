@@ -30,6 +30,8 @@ mod surface;
 mod travel;
 mod written;
 
+#[cfg(test)]
+pub(crate) use self::propose::tests::proposed;
 pub use self::{
     coat::{
         BUILT_IN_COATS, Coat, CoatError, CoatFolder, CoatGroup, Gun, Pattern, Profile,

@@ -48,6 +48,8 @@ struct Choice {
     /// The requested folder; without one [`open_library`] finds it.
     given: Option<PathBuf>,
     loaded: Option<Arc<LoadedLibrary>>,
+    /// A library loaded before the first one.
+    former: Option<Arc<LoadedLibrary>>,
     /// The numbers that the window itself gave to the parts.
     own_numbers: Option<PartNumbers>,
     taken_version: Option<ReadTakenVersion>,
@@ -259,6 +261,13 @@ impl LibraryCache {
         self
     }
 
+    /// Takes what is unchanged from a library that was loaded before.
+    #[must_use]
+    pub fn with_former(self, former: Option<Arc<LoadedLibrary>>) -> Self {
+        self.lock().former = former;
+        self
+    }
+
     /// The robot frame in use, with the camera's pose in the robot's base, if the cell is calibrated.
     pub fn robot(&self) -> Option<Arc<RobotFrame>> {
         lock(&self.robot).clone()
@@ -362,8 +371,19 @@ impl LibraryCache {
 
 impl Choice {
     fn load(&mut self) -> Result<Arc<LoadedLibrary>, LibraryError> {
-        let former = self.loaded.as_deref();
-        let loaded = Arc::new(load(self.given.as_deref(), self.taken_version, former)?);
+        let given = self.given.as_deref();
+        let is_it = |former: &Arc<LoadedLibrary>| {
+            given == Some(former.shown.path.as_path()) && former.is_unchanged()
+        };
+        let first = self.former.take();
+        let loaded = match (&self.loaded, first) {
+            (None, Some(first)) if is_it(&first) => first,
+            (former, first) => {
+                let former = former.as_ref().or(first.as_ref());
+                let former = former.map(Arc::as_ref);
+                Arc::new(load(given, self.taken_version, former)?)
+            }
+        };
         self.loaded = Some(Arc::clone(&loaded));
         Ok(loaded)
     }
@@ -593,6 +613,10 @@ mod tests {
             entry.set_modified(before).expect("dated");
         }
         let library_cache = load();
+        let loaded = library_cache.get();
+        let again = LibraryCache::new(Some(folder.path().into()), Camera::default());
+        let again = again.with_former(Some(Arc::clone(&loaded)));
+        assert!(Arc::ptr_eq(&again.get(), &loaded));
         // In place, which no writer does: the folder's entries stay as they were, so that nothing is read.
         let fender = folder.path().join("fender");
         fs::write(fender.join("part.toml"), "no part").expect("written");

@@ -282,30 +282,31 @@ impl ReferenceView {
 mod tests {
     use super::*;
 
-    use std::{fs, path::Path};
+    use std::{fs, path::Path, sync::LazyLock};
 
     use files::FileContent;
 
     use super::super::{Coverage, Reference};
     use crate::reference::ReferenceParams;
 
-    fn shipped_references() -> Vec<Reference> {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../reference_parts");
-        let mut references = Vec::new();
-        for part in fs::read_dir(folder).expect("a folder") {
-            let path = part.expect("a part").path().join("cloud.ply");
-            if !path.is_file() {
-                continue;
-            }
-            let Ok(FileContent::Cloud(cloud)) = files::open(&path) else {
-                panic!("{} is no cloud", path.display());
-            };
-            let params = ReferenceParams::default();
-            let reference = Reference::prepare("part", cloud, Coverage::OneSide, &params);
-            references.push(reference.expect("an outline"));
-        }
-        assert_eq!(references.len(), 8);
-        references
+    /// The shipped parts, prepared once.
+    fn shipped_references() -> &'static [Reference] {
+        static PREPARED: LazyLock<Vec<Reference>> = LazyLock::new(|| {
+            let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../reference_parts");
+            let parts = fs::read_dir(folder).expect("a folder");
+            let clouds = parts.map(|part| part.expect("a part").path().join("cloud.ply"));
+            let prepared = clouds.filter(|path| path.is_file()).map(|path| {
+                let Ok(FileContent::Cloud(cloud)) = files::open(&path) else {
+                    panic!("{} is no cloud", path.display());
+                };
+                let params = ReferenceParams::default();
+                let reference = Reference::prepare("part", cloud, Coverage::OneSide, &params);
+                reference.expect("an outline")
+            });
+            prepared.collect()
+        });
+        assert_eq!(PREPARED.len(), 8);
+        &PREPARED
     }
 
     #[test]

@@ -42,7 +42,8 @@ fn messages(files: Files) -> BTreeMap<String, Variables> {
     messages
 }
 
-/// Collects the messages that the code uses by name.
+/// Collects the messages that the code uses by name. It reads the source: no compiler knows a message that nothing uses, and
+/// what finds those finds misspelt ones as well.
 fn asked_for() -> BTreeMap<String, Variables> {
     let mut sources = Vec::new();
     let crates = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");

@@ -5,13 +5,11 @@ use nalgebra::{Point3, Unit};
 use super::*;
 use crate::{
     RobotFrame,
-    paint::{
-        Coat, LEAST_WITHIN, PaintSurface, Proposal, WrittenFilm, built_in_coat, propose, simulate,
-    },
+    paint::{Coat, LEAST_WITHIN, PaintSurface, Proposal, WrittenFilm, proposed, simulate},
     spray::carry,
 };
-use inspection::library::{LibraryFolder, PathPoint, SprayPath, StoredPart};
-use stages::{reference::ReferenceParams, stand_off::StandOffParams};
+use inspection::library::{PathPoint, SprayPath, StoredPart};
+use stages::stand_off::StandOffParams;
 
 /// Metres between the moments at which the speed is found.
 const STEP: f64 = 0.001;
@@ -89,16 +87,9 @@ fn followed(moves: &[read::Move], part_from_robot: &RigidTransform, usual: f64) 
     SprayPath::new(points).expect("points")
 }
 
-fn enrolled(name: &str) -> StoredPart {
-    let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("reference_parts");
-    let library = LibraryFolder::open(&folder).expect("the shipped parts");
-    let read = library.read(name, &ReferenceParams::default());
-    read.expect("listed").expect("read")
-}
-
 /// The films of the programs of a part's proposed path.
 struct Painted {
-    planned: Proposal,
+    planned: &'static Proposal,
     /// Share within the tolerance and mean thickness, as integrated here from each file.
     read: Vec<(&'static RobotLanguage, [f64; 2])>,
     /// As the export states them, for one language of each kind: moved on, switched early, stopped.
@@ -106,12 +97,11 @@ struct Painted {
 }
 
 fn painted(name: &str) -> Painted {
+    let (part, planned) = proposed(name);
     let StoredPart {
         reference, meta, ..
-    } = enrolled(name);
-    let surface = PaintSurface::of(&reference, meta.coverage, meta.side).expect("a surface");
-    let coat = built_in_coat("primer").expect("built in").recipe;
-    let planned = propose(&surface, &coat, &[]).expect("proposed");
+    } = part;
+    let surface = PaintSurface::of(reference, meta.coverage, meta.side).expect("a surface");
     let frame = RobotFrame {
         robot_from_camera: from_euler_zyx([0.4, -0.2, 1.3, 1.2, -0.4, 1.9]),
         name: "cell".into(),
@@ -129,7 +119,7 @@ fn painted(name: &str) -> Painted {
     let part_from_robot = program.robot_from_part.inverse();
     let read = RobotLanguage::ALL.map(|language| {
         let moves = (language.reader.read)(&text_of(&program, language)).moves;
-        let path = followed(&moves, &part_from_robot, coat.acceleration);
+        let path = followed(&moves, &part_from_robot, planned.coat.acceleration);
         let film = simulate(&surface, &path, &planned.coat, &[]).expect("simulated");
         (language, [film.figures.within, film.figures.mean])
     });

@@ -549,8 +549,9 @@ mod tests {
                 number: 0,
             }))
         });
-        let library_cache =
-            LibraryCache::new(Some(::inspection::fixtures::SHIPPED_PARTS.into()), camera);
+        let shipped = ::inspection::fixtures::SHIPPED_PARTS;
+        let library_cache = LibraryCache::new(Some(shipped.into()), camera);
+        let library_cache = library_cache.with_former(Some(LibraryCache::default().get()));
         let mut state = State::new(&TaskRunner::without_threads(), &library_cache);
         let spec: SourceSpec = spec.parse().expect("a source");
         state.session.source = Source::Camera(Box::new(spec));

@@ -36,7 +36,9 @@ impl Bench {
         let parts = data.path().join("parts");
         copy_library(&parts);
         let mut shell = TestShell::default();
-        shell.services.library_cache = LibraryCache::new(Some(parts), Camera::default());
+        let shipped = Some(LibraryCache::default().get());
+        let library_cache = LibraryCache::new(Some(parts), Camera::default()).with_former(shipped);
+        shell.services.library_cache = library_cache;
         shell.session.library = Some(Arc::clone(&shell.services.library_cache.get().shown));
         shell.session.workspace = WorkspaceKind::Paint;
         let coats = Some(data.path().join("coats"));
