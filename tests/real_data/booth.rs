@@ -222,6 +222,7 @@ fn a_frame_that_shows_too_little_to_be_recognised_in_it_is_warned_of() {
         assert_eq!(enrolled.warnings.iter().any(is_warned), is_little, "{name}");
         let library = Library {
             references: vec![enrolled.reference],
+            ..Library::default()
         };
         let found = run(&scene, &library, &Recipe::default(), &Unwatched).expect("not cancelled");
         assert_eq!(found.verdict.is_accepted(), !is_little, "{name}");
@@ -338,6 +339,7 @@ fn a_part_whose_pose_is_ambiguous_is_accepted_by_no_pose_method() {
     for door in ["right2_03", "right2_04"] {
         let library = Library {
             references: vec![enrolled("left2_01", "fender"), enrolled(door, "door")],
+            ..Library::default()
         };
         for name in BUILT_IN_RECIPES {
             for method in PoseMethod::ALL {

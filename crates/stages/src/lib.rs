@@ -16,6 +16,7 @@ pub mod confirm;
 pub mod contour;
 pub mod correlation;
 pub mod descriptors;
+pub mod deviation;
 pub mod field_of_view;
 #[cfg(any(test, feature = "fixtures"))]
 pub mod fixtures;

@@ -24,6 +24,7 @@ mod pictures;
 pub mod pose_report;
 #[cfg(feature = "cli")]
 mod runner_up_picture;
+mod surface_line;
 mod text_table;
 
 #[cfg(feature = "cli")]
@@ -40,5 +41,6 @@ pub use self::{
 pub use self::{
     evaluation_report::EvaluationReport,
     line::{CaptureLine, InspectionLine, SCHEMA, ScanLine, TimingsLine},
+    surface_line::{MeasuredLine, RegionLine, SurfaceLine},
     text_table::TextTable,
 };
