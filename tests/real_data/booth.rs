@@ -14,9 +14,13 @@ use partsight::{
         EnrolError, EnrolParams, EnrolWarning, Library, PartDescription, PartName, enrol_captured,
         enrol_surface, likenesses, surfaces_to_enrol,
     },
-    pipeline::{BUILT_IN_RECIPES, PoseChoice, Recipe, Unwatched, Verdict, built_in_recipe, run},
+    pipeline::{
+        BUILT_IN_RECIPES, PoseChoice, Recipe, Unwatched, Verdict, built_in_recipe, measure_surface,
+        run,
+    },
     robot::cell_check::{CellBaseline, CellFinding, CellLimits, CellView},
     stages::{
+        deviation::DeviationParams,
         pose::{PoseEstimate, PoseMethod},
         scene::{SceneCloud, scene_from_cloud, scene_from_frame},
         segment::{PointLabel, SegmentParams, SegmentedPart, segment},
@@ -295,6 +299,46 @@ fn parts_of_a_booth_are_named_and_placed_where_the_robot_says() {
     assert!(
         num_named >= 9 && num_accepted >= 7 && num_approximate <= 2,
         "{num_named} named, {num_accepted} accepted, {num_approximate} approximate"
+    );
+}
+
+#[test]
+fn hardly_a_good_part_of_a_booth_has_a_dent() {
+    let Some(data) = data_folder() else { return };
+    let booth = data.join("booth");
+    let truth = Truth::read(&booth);
+    let library = library(&booth, &truth);
+    let files: Vec<&String> = truth.frames.keys().collect();
+    let measured = map_each(files.len(), num_cores(), |number| {
+        let scene = scene(&booth.join(files[number]));
+        let found = run(&scene, &library, &Recipe::default(), &Unwatched).expect("not cancelled");
+        measure_surface(&found, &library, &[&scene], &DeviationParams::default())
+    });
+    let (mut num_measured, mut num_with_regions) = (0, 0);
+    for (file, measured) in files.iter().zip(measured) {
+        match measured {
+            None => println!("{file}: not accepted"),
+            Some(Err(error)) => println!("{file}: {error}"),
+            Some(Ok(found)) => {
+                num_measured += 1;
+                num_with_regions += usize::from(!found.regions.is_empty());
+                let regions = found.regions.iter();
+                let regions: Vec<_> = regions
+                    .map(|region| (region.kind, region.off, region.area_m2, region.centre))
+                    .collect();
+                println!(
+                    "{file}: {:.0} % judged, noise {:.2} mm, limit {:.2} mm, found {regions:?}",
+                    100.0 * found.seen,
+                    found.noise.mm(),
+                    found.limit_factor * found.noise.mm()
+                );
+            }
+        }
+    }
+    assert!(num_measured >= 7, "{num_measured} measured");
+    assert!(
+        10 * num_with_regions <= num_measured,
+        "{num_with_regions} of {num_measured}"
     );
 }
 

@@ -32,7 +32,7 @@ use self::{
     alignment::SmallMotion,
     missing::missing,
     patches::{Patches, noise_between},
-    readings::NodeReadings,
+    readings::{MIN_FACING_COSINE, NodeReadings},
     regions::{limit_factor, regions},
     surface::Surface,
 };
@@ -96,11 +96,18 @@ pub enum DeviationError {
     NoPicture,
     /// The frames are of different sizes or cameras.
     FramesDiffer,
+    /// The part stood elsewhere in one of the frames.
+    Moved {
+        /// By how much its surface lay elsewhere: root mean square, metres.
+        by_m: f64,
+        /// Up to which it counts as standing still.
+        limit_m: f64,
+    },
     /// The reference has no surface with normals.
     NoSurface,
     /// Too little of the reference is seen well.
     LittleSeen {
-        /// Share of the reference's surface that is judged, 0..1.
+        /// Share of the reference's surface that is judged, 0..1, of what faces the camera.
         seen: f64,
         /// The share that is needed.
         needed: f64,
@@ -115,6 +122,7 @@ impl DeviationError {
         match self {
             Self::NoPicture => "no_picture",
             Self::FramesDiffer => "frames_differ",
+            Self::Moved { .. } => "moved",
             Self::NoSurface => "no_surface",
             Self::LittleSeen { .. } => "little_seen",
         }
@@ -194,8 +202,7 @@ pub struct Deviation {
     pub part_from_camera: RigidTransform,
     /// Number of frames averaged.
     pub num_frames: usize,
-    /// Share of the reference's surface, without its margins, that is judged, 0..1; of a reference that is known from both sides,
-    /// of the side that is seen.
+    /// Share of the reference's surface that is judged, 0..1, of what faces the camera and is no margin.
     pub seen: f64,
     /// The means over patches, for pictures.
     pub patches: Vec<PatchDeviation>,
@@ -219,6 +226,9 @@ pub const PATCH_RADIUS_M: f64 = 0.016;
 const WIDTHS_M: [f64; 3] = [0.02, 0.04, 0.08];
 /// Share of the reference's surface that must be judged.
 const MIN_SEEN: f64 = 0.15;
+/// How far the part's surface may lie elsewhere in a frame than in all, metres: more than the noise of a whole part, less than a
+/// dent.
+const MAX_MOTION_M: f64 = 0.001;
 /// Number of alignments by the first frame: readings come nearer to their places on the surface.
 const NUM_ALIGNMENTS: usize = 2;
 /// Standard deviations by which a value lies above its limit in 95 of 100 cases.
@@ -266,14 +276,15 @@ pub fn measure_deviation(
     });
     let mut readings = NodeReadings::joined(&frames);
     let motion = SmallMotion::onto(&surface, &readings);
+    stands_still(&surface, &frames, &motion)?;
     for node in 0..surface.points.len() {
         readings.offs[node] += readings.nums[node] * motion.off_by(&surface, node);
     }
     let [small, medium, large] = RADII_M.map(|radius| Patches::of(&surface, &readings, radius));
     let form = medium.form(&surface, params.form_radius.0);
-    let num_inner = surface.is_margin.iter().filter(|is| !**is).count();
+    let num_facing = num_facing(&surface, &part_from_camera);
     let num_seen = form.iter().filter(|form| form.is_finite()).count();
-    let seen = num_seen as f64 / num_inner.max(1) as f64;
+    let seen = num_seen as f64 / num_facing.max(1) as f64;
     if seen < MIN_SEEN {
         return Err(DeviationError::LittleSeen {
             seen,
@@ -299,6 +310,43 @@ pub fn measure_deviation(
         smallest: WIDTHS_M.map(|width| smallest_dent(width, &scales, limit_factor)),
         regions: found,
     })
+}
+
+/// Refuses frames between which the part has moved.
+fn stands_still(
+    surface: &Surface<'_>,
+    frames: &[NodeReadings],
+    all: &SmallMotion,
+) -> Result<(), DeviationError> {
+    for frame in frames {
+        let own = SmallMotion::onto(surface, frame);
+        let apart = |node: &usize| own.off_by(surface, *node) - all.off_by(surface, *node);
+        let nodes = (0..surface.points.len()).filter(|node| frame.nums[*node] > 0.0);
+        let (num, sum) = nodes.fold((0.0_f64, 0.0), |(num, sum), node| {
+            (num + 1.0, sum + apart(&node).powi(2))
+        });
+        let by_m = (sum / num.max(1.0)).sqrt();
+        if by_m > MAX_MOTION_M {
+            return Err(DeviationError::Moved {
+                by_m,
+                limit_m: MAX_MOTION_M,
+            });
+        }
+    }
+    Ok(())
+}
+
+/// Number of nodes, without the margins, that face the camera.
+fn num_facing(surface: &Surface<'_>, part_from_camera: &RigidTransform) -> usize {
+    let camera = part_from_camera * Point3::origin();
+    let is_facing = |node: &usize| {
+        let towards = camera - surface.points[*node].cast::<f64>();
+        let cosine = surface.normals[*node]
+            .cast::<f64>()
+            .dot(&towards.normalize());
+        !surface.is_margin[*node] && cosine >= MIN_FACING_COSINE
+    };
+    (0..surface.points.len()).filter(is_facing).count()
 }
 
 fn for_pictures(surface: &Surface<'_>, patches: &Patches) -> Vec<PatchDeviation> {
