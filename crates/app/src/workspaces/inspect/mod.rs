@@ -13,6 +13,7 @@ mod ranking;
 mod robot_numbers;
 mod state;
 mod strip;
+mod surface;
 #[cfg(test)]
 mod tests;
 mod view;
