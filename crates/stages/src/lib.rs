@@ -10,6 +10,7 @@
 //! - [`paper`] is the paper's own method of matching and pose; [`locate`] estimates the pose of a scene's part with it.
 //! - [`confirm`] scores the best references by surface, outline and openings.
 //! - [`scan`] combines several frames; [`stand_off`] is the distance of the nozzle, computed where it is shown.
+//! - [`deviation`] holds the surface of an accepted part against its reference: dents, bumps, missing surface.
 //! - [`descriptors`] are those of other systems, for comparison.
 
 pub mod confirm;
