@@ -4,7 +4,7 @@
 //!
 //! 1. Every reading of every frame is held against the surface of the reference, along its normal (`surface`, `readings`).
 //! 2. The part is aligned by what most of its surface says, so that a dent stays a dent (`alignment`).
-//! 3. The deviations are averaged over the frames and over patches of three sizes: a camera's noise falls with the number of
+//! 3. The deviations are averaged over the frames and over patches of four sizes: a camera's noise falls with the number of
 //!    readings, its rounding and other errors that all frames share do not.
 //! 4. The form, all that is larger than a dent, is taken away by a robust local plane, as a robust Gaussian regression filter
 //!    does (ISO 16610-31): what a camera bends, and what part and reference differ by as a whole, is no dent. The nesting index is
@@ -49,8 +49,8 @@ use texts::{Described, Message};
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default)]
 pub struct DeviationParams {
-    /// Share of parts without a deviation in which a region is found, 0.001..0.2. Raising it finds smaller dents, and more that are
-    /// none.
+    /// Regions that are found on a part without a deviation, in the mean, 0.001..0.2. Raising it finds smaller dents, and more that
+    /// are none.
     pub false_alarms: f64,
     /// Least area of a region, square metres, 0..0.01. Raising it overlooks scratches.
     pub min_area_m2: f64,
@@ -61,9 +61,9 @@ pub struct DeviationParams {
 impl Default for DeviationParams {
     fn default() -> Self {
         Self {
-            false_alarms: 0.02,
+            false_alarms: 0.03,
             min_area_m2: 1e-4,
-            form_radius: Metres::from_mm(100.0),
+            form_radius: Metres::from_mm(120.0),
         }
     }
 }
@@ -218,10 +218,12 @@ pub struct Deviation {
     pub regions: Vec<DeviationRegion>,
 }
 
-/// Radii of the patches, metres: what suits dents of 20 to 80 mm.
-const RADII_M: [f64; 3] = [0.010, PATCH_RADIUS_M, 0.025];
+/// Radii of the patches, metres: those of dents of 24 to 84 mm.
+const RADII_M: [f64; 4] = [PATCH_RADIUS_M, 0.019, 0.030, 0.042];
 /// Radius of the patch whose noise is reported, metres.
-pub const PATCH_RADIUS_M: f64 = 0.016;
+pub const PATCH_RADIUS_M: f64 = 0.012;
+/// Number of the patches that the form is fitted to: the noise of the smallest ones would hide a dent from a robust fit.
+const FORM_SCALE: usize = 1;
 /// Widths of dents for which the smallest depth is reported, metres.
 const WIDTHS_M: [f64; 3] = [0.02, 0.04, 0.08];
 /// Share of the reference's surface that must be judged.
@@ -280,8 +282,8 @@ pub fn measure_deviation(
     for node in 0..surface.points.len() {
         readings.offs[node] += readings.nums[node] * motion.off_by(&surface, node);
     }
-    let [small, medium, large] = RADII_M.map(|radius| Patches::of(&surface, &readings, radius));
-    let form = medium.form(&surface, params.form_radius.0);
+    let scales = RADII_M.map(|radius| Patches::of(&surface, &readings, radius));
+    let form = scales[FORM_SCALE].form(&surface, params.form_radius.0);
     let num_facing = num_facing(&surface, &part_from_camera);
     let num_seen = form.iter().filter(|form| form.is_finite()).count();
     let seen = num_seen as f64 / num_facing.max(1) as f64;
@@ -291,7 +293,7 @@ pub fn measure_deviation(
             needed: MIN_SEEN,
         });
     }
-    let mut scales = [small, medium, large].map(|patches| patches.without(&form));
+    let mut scales = scales.map(|patches| patches.without(&form));
     for patches in &mut scales {
         patches.scale_noises(&surface);
     }
@@ -303,8 +305,8 @@ pub fn measure_deviation(
         part_from_camera,
         num_frames: part.frames.len(),
         seen,
-        patches: for_pictures(&surface, &scales[1]),
-        noise: Metres(typical_noise(&scales[1])),
+        patches: for_pictures(&surface, &scales[0]),
+        noise: Metres(typical_noise(&scales[0])),
         noise_between: noise_between(&surface, &frames, PATCH_RADIUS_M).map(Metres),
         limit_factor,
         smallest: WIDTHS_M.map(|width| smallest_dent(width, &scales, limit_factor)),

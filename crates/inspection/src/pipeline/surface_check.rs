@@ -138,6 +138,8 @@ pub struct SurfaceCheck {
 const MIN_SEEN: f64 = 0.5;
 /// Deviation that must be certain where a zone has no tolerance, metres: a part with larger dents would not be called good.
 const DEFAULT_NEEDED_M: f64 = 0.005;
+/// Number of the width in [`Deviation::smallest`], 40 mm, whose smallest dent must be within the tolerance.
+const JUDGED_WIDTH: usize = 1;
 /// Distance up to which moving nearer helps, metres: nearer, a Kinect sees nothing.
 const NEAREST_M: f64 = 0.7;
 
@@ -287,7 +289,7 @@ fn not_judged(deviation: &Deviation, zones: &SurfaceZones) -> Option<NotJudged> 
         let noise = median(patches.iter().map(|patch| f64::from(patch.noise)))?;
         let tolerance = zone.and_then(SurfaceZone::tolerance);
         let needed_m = tolerance.map_or(DEFAULT_NEEDED_M, |tolerance| tolerance.0);
-        let certain_m = deviation.limit_factor * noise;
+        let certain_m = deviation.smallest[JUDGED_WIDTH].depth.0 * noise / deviation.noise.0;
         if certain_m <= needed_m {
             return None;
         }
@@ -395,13 +397,13 @@ mod tests {
         let check = SurfaceCheck::of(noisy.clone(), &zone(1.0, 9.0));
         assert_eq!(check.verdict, SurfaceVerdict::NotJudged);
         assert!(matches!(check.not_judged, Some(NotJudged::TooNoisy { .. })));
-        let check = SurfaceCheck::of(noisy.clone(), &zone(7.0, 9.0));
+        let check = SurfaceCheck::of(noisy.clone(), &zone(10.0, 12.0));
         assert_eq!(
             (check.verdict, check.not_judged),
             (SurfaceVerdict::Ok, None)
         );
         noisy.seen = 0.4;
-        let check = SurfaceCheck::of(noisy, &zone(7.0, 9.0));
+        let check = SurfaceCheck::of(noisy, &zone(10.0, 12.0));
         assert!(matches!(
             check.not_judged,
             Some(NotJudged::LittleInSight { .. })

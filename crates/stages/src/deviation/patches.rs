@@ -12,7 +12,9 @@ use geometry::{
     statistics::median,
 };
 
-/// Share of a patch that must have readings.
+/// Integral of the weights over a disc of radius 1: π/2 - 2/π.
+const WEIGHT_OF_DISC: f64 = std::f64::consts::FRAC_PI_2 - std::f64::consts::FRAC_2_PI;
+/// Share of a patch, by its weights, that must have readings.
 const MIN_COVERAGE: f64 = 0.6;
 /// Error of a single node of the reference, metres, before the measured noise scales it together with the camera's.
 const REFERENCE_ERROR_M: f64 = 0.0005;
@@ -37,7 +39,7 @@ const MIN_FORM_NODES: usize = 12;
 pub(super) struct Patches {
     /// Radius of a patch, metres.
     pub(super) radius: f64,
-    /// Mean distance outside of the surface, metres; NaN where too little is seen.
+    /// Weighted mean distance outside of the surface, metres; NaN where too little is seen.
     pub(super) offs: Vec<f64>,
     /// Standard deviation of that mean, metres.
     pub(super) noises: Vec<f64>,
@@ -45,28 +47,32 @@ pub(super) struct Patches {
 
 impl Patches {
     /// Averages the readings around each node; the noises are those that the camera and the reference would give if their errors
-    /// were independent.
+    /// were independent. A reading counts by a dent's own profile: of all weights, these show it best above the noise (G. L. Turin,
+    /// "An introduction to matched filters", IRE Transactions on Information Theory 6(3), 1960).
     pub(super) fn of(surface: &Surface<'_>, readings: &NodeReadings, radius: f64) -> Self {
-        let num_full = std::f64::consts::PI * radius * radius / surface.node_area;
+        let full = WEIGHT_OF_DISC * radius * radius / surface.node_area;
         let each = map_each(surface.points.len(), num_cores(), |node| {
             if readings.nums[node] <= 0.0 {
                 return (f64::NAN, f64::NAN);
             }
-            let (mut num, mut off, mut variance, mut num_nodes) = (0.0, 0.0, 0.0, 0.0);
+            let (mut num, mut off, mut weights) = (0.0, 0.0, 0.0);
+            let (mut variance, mut squares) = (0.0, 0.0);
             surface.around(node, radius, |near| {
                 if readings.nums[near] > 0.0 {
-                    num += readings.nums[near];
-                    off += readings.offs[near];
-                    variance += readings.variances[near];
-                    num_nodes += 1.0;
+                    let away = surface.points[near] - surface.points[node];
+                    let weight = profile(f64::from(away.norm()), 2.0 * radius);
+                    num += weight * readings.nums[near];
+                    off += weight * readings.offs[near];
+                    variance += weight * weight * readings.variances[near];
+                    squares += (weight * readings.nums[near]).powi(2);
+                    weights += weight;
                 }
             });
-            if num_nodes < MIN_COVERAGE * num_full {
+            if weights < MIN_COVERAGE * full {
                 return (f64::NAN, f64::NAN);
             }
-            let of_reference = REFERENCE_ERROR_M * REFERENCE_ERROR_M / num_nodes;
-            let noise = variance / (num * num) + of_reference;
-            (off / num, noise.sqrt())
+            let of_reference = REFERENCE_ERROR_M * REFERENCE_ERROR_M * squares;
+            (off / num, (variance + of_reference).sqrt() / num)
         });
         let (offs, noises) = each.into_iter().unzip();
         Self {
@@ -201,21 +207,25 @@ pub(super) fn noise_between(
     Some((variance / num).sqrt())
 }
 
-/// What of a dent's depth is left in the mean over a patch of this radius at its centre, for the profile cos²(π·r / width).
-pub fn share_in_average(width: f64, radius: f64) -> f64 {
-    let half = 0.5 * width;
-    let within = radius.min(half);
-    let phase = std::f64::consts::PI * within / half;
-    let sine = half * within / (2.0 * std::f64::consts::PI) * phase.sin();
-    let cosine = half * half / (2.0 * std::f64::consts::PI.powi(2)) * (phase.cos() - 1.0);
-    2.0 / (radius * radius) * (within * within / 4.0 + sine + cosine)
+/// The profile of a dent of this width at a distance from its middle, 0..1: cos²(π·r / width).
+fn profile(distance: f64, width: f64) -> f64 {
+    if distance < 0.5 * width {
+        (std::f64::consts::PI * distance / width).cos().powi(2)
+    } else {
+        0.0
+    }
 }
 
-/// Returns the value that a normally distributed one of variance 1 exceeds with this probability, 0..0.5 (M. Abramowitz and I. A.
-/// Stegun, "Handbook of Mathematical Functions", 1964, 26.2.23; off by less than 0.00045).
-pub(super) fn normal_above(probability: f64) -> f64 {
-    let t = (-2.0 * probability.ln()).sqrt();
-    let above = 2.515_517 + t * (0.802_853 + t * 0.010_328);
-    let below = 1.0 + t * (1.432_788 + t * (0.189_269 + t * 0.001_308));
-    t - above / below
+/// What of a dent's depth is left in the average over a patch of this radius at its middle, for the profile cos²(π·r / width).
+pub fn share_in_average(width: f64, radius: f64) -> f64 {
+    /// Rings that the patch is divided into.
+    const NUM_RINGS: usize = 200;
+    let (mut sum, mut weights) = (0.0, 0.0);
+    for ring in 0..NUM_RINGS {
+        let distance = (ring as f64 + 0.5) / NUM_RINGS as f64 * radius;
+        let weight = distance * profile(distance, 2.0 * radius);
+        sum += weight * profile(distance, width);
+        weights += weight;
+    }
+    sum / weights
 }

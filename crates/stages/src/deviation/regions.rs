@@ -1,19 +1,20 @@
 //! Regions in which the averages exceed their noise.
 //!
 //! A part has thousands of patches, so the limit follows from how many there are: with it, a part without a deviation has a
-//! region in as few cases as was asked for (C. E. Bonferroni, "Teoria statistica delle classi e calcolo delle probabilità",
-//! 1936). We take that instead of a false discovery rate (Y. Benjamini and Y. Hochberg, "Controlling the false discovery rate",
-//! Journal of the Royal Statistical Society B 57(1), 1995): a good part must hardly ever be refused.
+//! region in as few cases as was asked for. The number of places in which an average exceeds a limit by chance is the expected
+//! Euler characteristic of a smooth random field (R. J. Adler, "The geometry of random fields", 1981; K. J. Worsley and others,
+//! "A unified statistical approach for determining significant signals in images of cerebral activation", Human Brain Mapping
+//! 4(1), 1996). We take that instead of a false discovery rate (Y. Benjamini and Y. Hochberg, "Controlling the false discovery
+//! rate", Journal of the Royal Statistical Society B 57(1), 1995): a good part must hardly ever be refused.
 
-use super::{
-    DeviationRegion, RegionKind,
-    patches::{Patches, normal_above},
-    surface::Surface,
-};
+use super::{DeviationRegion, RegionKind, patches::Patches, surface::Surface};
 use geometry::units::Metres;
 
-/// Overlapping patches exceed a limit in more places than patches side by side: measured in their number.
-const OVERLAPPING_PER_PATCH: f64 = 3.0;
+/// Mean square of the slope of the averages over a patch of radius 1, along an axis, for a noise of 1: half of the integral of the
+/// squared slope of the weights (π³/8) over that of their squares (3·π/8 - 2/π).
+const SLOPE_SQ: f64 = 3.58;
+/// Limits between which the one is sought, standard deviations.
+const FACTORS: [f64; 2] = [2.0, 12.0];
 /// A region is where the average is at least this share of that in its middle.
 const REGION_SHARE: f64 = 0.5;
 /// Distance from a region within which a smaller deviation is of the same damage, metres: its flank, or the rim that taking the form
@@ -24,12 +25,30 @@ const RIM_MAX_SHARE: f64 = 0.4;
 
 /// Returns how many standard deviations an average must exceed.
 pub(super) fn limit_factor(surface: &Surface<'_>, scales: &[Patches], false_alarms: f64) -> f64 {
-    let patches = scales.iter().map(|patches| {
+    let slopes = scales.iter().map(|patches| {
         let num_seen = patches.offs.iter().filter(|off| off.is_finite()).count();
-        num_seen as f64 * surface.node_area / (std::f64::consts::PI * patches.radius.powi(2))
+        num_seen as f64 * surface.node_area * SLOPE_SQ / patches.radius.powi(2)
     });
-    let num_trials = 2.0 * OVERLAPPING_PER_PATCH * patches.sum::<f64>().max(1.0);
-    normal_above(false_alarms / num_trials)
+    factor_of(slopes.sum(), false_alarms)
+}
+
+/// The limit that the averages exceed in as many places, to either side: `slopes` is the integral of the mean square of their slope
+/// over the surface.
+pub(super) fn factor_of(slopes: f64, num_places: f64) -> f64 {
+    let expected = |factor: f64| {
+        2.0 * slopes * std::f64::consts::TAU.powf(-1.5) * factor * (-0.5 * factor * factor).exp()
+    };
+    let [mut low, mut high] = FACTORS;
+    // Below a millionth of a standard deviation, nothing changes.
+    for _ in 0..24 {
+        let middle = f64::midpoint(low, high);
+        if expected(middle) > num_places {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    high
 }
 
 /// Returns the regions that exceed the limit over at least `min_area` (square metres), the clearest first.

@@ -6,7 +6,7 @@ use simulate::{
     frame_of_mesh,
 };
 
-use super::{patches::normal_above, *};
+use super::{regions::factor_of, *};
 use crate::{
     reference::{Coverage, ReferenceParams},
     scene::scene_from_frame,
@@ -187,25 +187,20 @@ fn what_cannot_be_measured_is_named() {
 
 #[test]
 fn averages_and_limits_are_those_of_the_formulas() {
-    for (width, radius) in [(0.02, 0.016), (0.04, 0.016), (0.08, 0.025), (0.08, 0.001)] {
-        let num = 20_000;
-        let rings = (0..num).map(|ring| {
-            let r = (f64::from(ring) + 0.5) / f64::from(num) * radius;
-            let share = if r < width / 2.0 {
-                (std::f64::consts::PI * r / width).cos().powi(2)
-            } else {
-                0.0
-            };
-            2.0 * r * radius / f64::from(num) * share
-        });
-        let summed = rings.sum::<f64>() / (radius * radius);
-        let found = share_in_average(width, radius);
+    // Of a dent of the patch's own size, ∫cos⁴ over ∫cos²; of a much wider one all is left.
+    let pi = std::f64::consts::PI;
+    let own = (3.0 / 16.0 - 1.0 / (pi * pi)) / (0.25 - 1.0 / (pi * pi));
+    assert!((share_in_average(0.04, 0.02) - own).abs() < 1e-3, "{own}");
+    assert!(share_in_average(1.0, 0.02) > 0.99);
+    assert!(share_in_average(0.02, 0.04) < 0.3);
+    // The mean number of places beyond the limit is the one asked for.
+    for (slopes, num_places) in [(5_000.0, 0.05), (50_000.0, 0.02)] {
+        let k: f64 = factor_of(slopes, num_places);
+        let expected = 2.0 * slopes / (2.0 * pi).powf(1.5) * k * (-k * k / 2.0).exp();
         assert!(
-            (found - summed).abs() < 1e-4,
-            "{width}, {radius}: {found}, {summed}"
+            (expected / num_places - 1.0).abs() < 1e-3,
+            "{k}: {expected}"
         );
-    }
-    for (probability, expected) in [(0.025, 1.959_964), (0.001, 3.090_232), (1e-6, 4.753_424)] {
-        assert!((normal_above(probability) - expected).abs() < 5e-4);
+        assert!((4.0..6.5).contains(&k), "{k}");
     }
 }
