@@ -46,6 +46,17 @@ impl SurfaceZones {
         self.zones.iter().find(|zone| zone.contains(at))
     }
 
+    /// Returns the zone of what no other zone contains, which is added if there is none.
+    pub fn rest(&mut self) -> &mut SurfaceZone {
+        let is_rest = |zone: &SurfaceZone| zone.balls_mm.is_empty();
+        let index = self.zones.iter().position(is_rest);
+        let index = index.unwrap_or_else(|| {
+            self.zones.push(SurfaceZone::default());
+            self.zones.len() - 1
+        });
+        &mut self.zones[index]
+    }
+
     /// Returns what is wrong with the zones; `None` if nothing is.
     pub fn problem(&self) -> Option<String> {
         let num_balls: usize = self.zones.iter().map(|zone| zone.balls_mm.len()).sum();
