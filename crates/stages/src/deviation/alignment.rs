@@ -49,7 +49,8 @@ impl SmallMotion {
                 break;
             };
             let spread = (DEVIATIONS_PER_MEDIAN * spread).max(MIN_SPREAD_M);
-            let (mut stiffness, mut pull) = (Matrix6::zeros(), Vector6::zeros());
+            let mut stiffness = Matrix6::<f64>::zeros();
+            let mut pull = Vector6::<f64>::zeros();
             for (change, off) in &pairs {
                 let weight = biweight(left(&(*change, *off)), spread);
                 let weight = weight / (spread * spread * NODES_PER_ERROR);

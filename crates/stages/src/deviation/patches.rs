@@ -126,7 +126,8 @@ impl Patches {
             let left = |(row, _, off): &(Vector3<f64>, f64, f64)| off - row.dot(&plane);
             let spread = median(rows.iter().map(|row| left(row).abs())).unwrap_or(0.0);
             let spread = (DEVIATIONS_PER_MEDIAN * spread).clamp(MIN_SPREAD_M, most);
-            let (mut stiffness, mut pull) = (Matrix3::zeros(), Vector3::zeros());
+            let mut stiffness = Matrix3::<f64>::zeros();
+            let mut pull = Vector3::<f64>::zeros();
             for entry in &rows {
                 let (row, weight, off) = entry;
                 let weight = weight * biweight(left(entry), spread);

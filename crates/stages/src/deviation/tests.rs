@@ -106,9 +106,9 @@ fn a_dent_is_found_where_it_is_and_nothing_on_a_good_part() {
         assert!(distance < 0.015, "{distance} m away");
         let off = region.off.expect("a depth").0;
         assert!((off / height - 0.9).abs() < 0.3, "{off} m");
-        // Where it is at least half as deep, it is 30 mm wide.
+        // Where it is at least half as deep, it is 30 mm wide, and up to 60 mm in an average.
         assert!(
-            (3e-4..2e-3).contains(&region.area_m2),
+            (3e-4..3.5e-3).contains(&region.area_m2),
             "{} m²",
             region.area_m2
         );
