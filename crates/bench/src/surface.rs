@@ -116,7 +116,7 @@ pub struct SurfaceCase {
     pub enrolled: String,
     /// Seed of its pose.
     pub seed: u64,
-    /// The dent; `None` of a good part, or if no place was found for one.
+    /// The dent; `None` of a good part, and of one whose surface was not judged.
     pub dent: Option<DentCase>,
     /// True if the part was recognised and accepted.
     pub accepted: bool,
@@ -193,10 +193,11 @@ pub fn surface_cases(
     let mut cases = Vec::new();
     let num_workers = num_cores();
     for group in pieces.chunks(num_workers) {
-        cases.extend(map_each(group.len(), num_workers, |k| {
+        let found = map_each(group.len(), num_workers, |k| {
             let (part, seed, is_dented) = group[k];
             surface_case(library, part, setup, seed, is_dented)
-        }));
+        });
+        cases.extend(found.into_iter().flatten());
         for _ in group {
             after_each();
         }
@@ -204,23 +205,27 @@ pub fn surface_cases(
     cases
 }
 
+/// `None` if no place was found for a dent.
 fn surface_case(
     library: &BoundsLibrary,
     part: &BoundsPart,
     setup: &SurfaceSetup,
     seed: u64,
     is_dented: bool,
-) -> SurfaceCase {
+) -> Option<SurfaceCase> {
     let mut cell = CellSetup::new(SimulatedObject::Nothing, seed);
     cell.noise = SensorNoise::none();
     let bare = frame_of_mesh(&cell, &part.mesh);
     let camera_from_mesh = bare.truth.camera_from_part;
     // A dent must not move the part.
     cell.pose = PartPose::Fixed(camera_from_mesh);
-    let dent = is_dented
-        .then(|| drawn_dent(&scene_from_frame(&bare.frame), &bare.truth.labels, seed))
-        .flatten()
-        .map(|dent| carried(dent, &camera_from_mesh.inverse()));
+    let dent = if is_dented {
+        let scene = scene_from_frame(&bare.frame);
+        let drawn = drawn_dent(&scene, &bare.truth.labels, seed)?;
+        Some(carried(drawn, &camera_from_mesh.inverse()))
+    } else {
+        None
+    };
     let dented: Option<TriangleMesh> = dent.map(|dent| dent.pressed_into(&part.mesh));
     let mesh = dented.as_ref().unwrap_or(&part.mesh);
     let scenes: Vec<SceneCloud> = (0..setup.num_frames)
@@ -257,7 +262,7 @@ fn surface_case(
         Some(Err(error)) => case.not_judged = Some(error.to_string()),
         Some(Ok(found)) => case.judge(&found, dent, &camera_from_mesh),
     }
-    case
+    Some(case)
 }
 
 fn is_of(inspection: &Inspection, part: &BoundsPart) -> bool {
