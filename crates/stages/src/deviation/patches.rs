@@ -3,6 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::{
+    PATCH_RADIUS_M,
     alignment::{DEVIATIONS_PER_MEDIAN, MIN_SPREAD_M, biweight},
     readings::NodeReadings,
     surface::Surface,
@@ -154,8 +155,8 @@ impl Patches {
     }
 
     /// Scales the noises to what the patches show: to the spread over the whole part, or around a node where that is larger, and
-    /// adds what an error along the surface gives where normals differ. So errors that neighbouring readings or all frames share,
-    /// and those of the reference, are in them.
+    /// adds what an error along the surface gives where normals differ, and detail that the reference does not resolve. So errors
+    /// that neighbouring readings or all frames share, and those of the reference, are in them.
     pub(super) fn scale_noises(&mut self, surface: &Surface<'_>) {
         let seen: Vec<usize> = (0..self.offs.len())
             .filter(|node| self.is_seen(*node))
@@ -179,7 +180,12 @@ impl Patches {
             let local = LOCAL_NOISE_SHARE * local.unwrap_or(0.0);
             let scale = DEVIATIONS_PER_MEDIAN * whole.max(local);
             let along = ALONG_ERROR_M * surface.bend(node, self.radius);
-            (scale * self.noises[node]).hypot(along).max(MIN_NOISE_M)
+            // A larger patch levels it.
+            let detail = surface.details[node] * PATCH_RADIUS_M / self.radius;
+            let of_reference = along.hypot(detail);
+            (scale * self.noises[node])
+                .hypot(of_reference)
+                .max(MIN_NOISE_M)
         });
         self.noises = scaled;
     }

@@ -6,9 +6,9 @@ use super::{StandingPart, surface::Surface};
 use crate::scene::SceneCloud;
 use geometry::{cloud::is_finite, rigid::RigidTransform};
 
-/// Pixels on each side of a reading that must show the same surface: at a jump, depths are mixed.
-const SAME_SURFACE_PIXELS: usize = 2;
-/// Difference of depth to such a pixel, relative to the depth, from which it shows another surface: a surface at 60° has 0.007 of
+/// Pixels on each side of a reading that must show the same surface: at a jump, and beside a loss, depths are mixed.
+const SAME_SURFACE_PIXELS: [usize; 2] = [1, 3];
+/// Difference of depth to such a pixel, relative to the depth, from which it shows another surface: a surface at 60° has 0.01 of
 /// a Kinect's.
 const JUMP_SHARE: f32 = 0.02;
 /// Cosine between the surface and the ray from which readings are judged: up to 60°. Beyond, noise and losses grow.
@@ -107,12 +107,13 @@ fn is_inside(frame: &SceneCloud, index: usize) -> bool {
         return false;
     };
     let (row, column) = (index / grid.width, index % grid.width);
-    let far = SAME_SURFACE_PIXELS;
-    if column < far || row < far || column + far >= grid.width || row + far >= grid.height {
-        return false;
-    }
-    let down = far * grid.width;
-    [index - far, index + far, index - down, index + down]
-        .iter()
-        .all(|near| (points[*near].z - point.z).abs() <= JUMP_SHARE * point.z)
+    SAME_SURFACE_PIXELS.iter().all(|far| {
+        if column < *far || row < *far || column + far >= grid.width || row + far >= grid.height {
+            return false;
+        }
+        let down = far * grid.width;
+        [index - far, index + far, index - down, index + down]
+            .iter()
+            .all(|near| (points[*near].z - point.z).abs() <= JUMP_SHARE * point.z)
+    })
 }

@@ -25,6 +25,8 @@ const BORDER_SPACINGS: f64 = 3.0;
 const BORDER_MIN_LEAN: f64 = 0.25;
 /// Distance from the border up to which readings are not judged, metres: the camera's are ragged there.
 const MARGIN_M: f32 = 0.012;
+/// Radius in which the bias of nodes is compared, in their spacings.
+const DETAIL_SPACINGS: f64 = 2.0;
 /// Cosine between two normals from which their nodes lie on one surface: up to 60°.
 pub(super) const SAME_SURFACE_MIN_COSINE: f32 = 0.5;
 /// Number of nodes of which the density is measured.
@@ -46,6 +48,8 @@ pub(super) struct Surface<'a> {
     pub(super) is_margin: Vec<bool>,
     /// What the function says at each node, metres.
     bias: Vec<f64>,
+    /// Detail that the nodes do not resolve, metres: how much more the bias differs around a node than around most.
+    pub(super) details: Vec<f64>,
 }
 
 impl<'a> Surface<'a> {
@@ -67,6 +71,7 @@ impl<'a> Surface<'a> {
             spacing,
             is_margin: vec![false; points.len()],
             bias: vec![0.0; points.len()],
+            details: Vec::new(),
         };
         let at_nodes = map_each(points.len(), num_cores(), |node| {
             let off = surface.off(&points[node]).map_or(0.0, |(_, off)| off);
@@ -79,7 +84,26 @@ impl<'a> Surface<'a> {
                 tree.within(&points[node], MARGIN_M, |near| is_margin[near.index] = true);
             }
         }
+        surface.details = surface.unresolved();
         Some(surface)
+    }
+
+    /// The details: a handle or an emblem of a few nodes is another one from another side.
+    fn unresolved(&self) -> Vec<f64> {
+        let variances = map_each(self.points.len(), num_cores(), |node| {
+            let (mut num, mut sum, mut squares) = (0.0_f64, 0.0, 0.0);
+            self.around(node, DETAIL_SPACINGS * self.spacing, |near| {
+                num += 1.0;
+                sum += self.bias[near];
+                squares += self.bias[near] * self.bias[near];
+            });
+            let mean = sum / num.max(1.0);
+            (squares / num.max(1.0) - mean * mean).max(0.0)
+        });
+        // The noise of a captured reference is everywhere, and twice its median in places.
+        let usual = 2.0 * median(variances.iter().copied()).unwrap_or(0.0);
+        let excess = variances.iter().map(|variance| (variance - usual).max(0.0));
+        excess.map(f64::sqrt).collect()
     }
 
     /// Returns the node nearest to a point, and how far outside of the surface the point lies, metres; `None` if it is of something
