@@ -152,8 +152,7 @@ mod tests {
             zones()
         );
         assert_eq!(zones().problem(), None);
-        type Change = fn(&mut SurfaceZone);
-        let changes: [(Change, &str); 4] = [
+        let changes: [(fn(&mut SurfaceZone), &str); 4] = [
             (|zone| zone.tolerance_mm = Some(f64::NAN), "no length"),
             (|zone| zone.tolerance_mm = Some(0.0), "no length"),
             (|zone| zone.scrap_mm = Some(1.0), "below its tolerance"),
