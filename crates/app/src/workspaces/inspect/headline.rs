@@ -206,7 +206,7 @@ impl Headline {
 }
 
 /// What is wrong with the surface of an accepted part, and what to do; `None` if nothing is, or if it was not checked.
-fn surface_complaint(inspection: &Inspection) -> Option<(String, String)> {
+pub(super) fn surface_complaint(inspection: &Inspection) -> Option<(String, String)> {
     let check = inspection.surface.as_ref()?;
     let advice = match check.verdict {
         SurfaceVerdict::Ok => return None,
