@@ -25,21 +25,44 @@ const RIM_MAX_SHARE: f64 = 0.4;
 
 /// Returns how many standard deviations an average must exceed.
 pub(super) fn limit_factor(surface: &Surface<'_>, scales: &[Patches], false_alarms: f64) -> f64 {
-    let slopes = scales.iter().map(|patches| {
-        let num_seen = patches.offs.iter().filter(|off| off.is_finite()).count();
-        num_seen as f64 * surface.node_area * SLOPE_SQ / patches.radius.powi(2)
+    let fields = scales.iter().map(|patches| {
+        let num_seen = patches.offs.iter().filter(|off| off.is_finite()).count() as f64;
+        AveragedField {
+            slopes: num_seen * surface.node_area * SLOPE_SQ / patches.radius.powi(2),
+            num_averages: num_seen,
+        }
     });
-    factor_of(slopes.sum(), false_alarms)
+    factor_of(&fields.collect::<Vec<_>>(), false_alarms)
 }
 
-/// The limit that the averages exceed in as many places, to either side: `slopes` is the integral of the mean square of their slope
-/// over the surface.
-pub(super) fn factor_of(slopes: f64, num_places: f64) -> f64 {
-    let expected = |factor: f64| {
-        2.0 * slopes * std::f64::consts::TAU.powf(-1.5) * factor * (-0.5 * factor * factor).exp()
+/// Averages of a noise of 1 over the surface.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct AveragedField {
+    /// Integral over the surface of the mean square of their slope along an axis.
+    pub(super) slopes: f64,
+    /// Number of places where they are taken.
+    pub(super) num_averages: f64,
+}
+
+impl AveragedField {
+    /// At most so many places exceed a limit to either side by chance: the Euler characteristic, or, where the averages are taken
+    /// at a few places, their number times the probability of each.
+    pub(super) fn num_beyond(self, factor: f64) -> f64 {
+        let density = (-0.5 * factor * factor).exp() / std::f64::consts::TAU.sqrt();
+        let of_field = self.slopes * density * factor / std::f64::consts::TAU;
+        let of_each = self.num_averages * density / factor;
+        2.0 * of_field.min(of_each)
+    }
+}
+
+/// The limit beyond which these fields have so many places by chance.
+pub(super) fn factor_of(fields: &[AveragedField], num_places: f64) -> f64 {
+    let expected = |factor: f64| -> f64 {
+        let each = fields.iter().map(|field| field.num_beyond(factor));
+        each.sum()
     };
     let [mut low, mut high] = FACTORS;
-    // Below a millionth of a standard deviation, nothing changes.
+    // To a millionth of a standard deviation.
     for _ in 0..24 {
         let middle = f64::midpoint(low, high);
         if expected(middle) > num_places {

@@ -6,7 +6,10 @@ use simulate::{
     frame_of_mesh,
 };
 
-use super::{regions::factor_of, *};
+use super::{
+    regions::{AveragedField, factor_of},
+    *,
+};
 use crate::{
     reference::{Coverage, ReferenceParams},
     scene::scene_from_frame,
@@ -193,14 +196,17 @@ fn averages_and_limits_are_those_of_the_formulas() {
     assert!((share_in_average(0.04, 0.02) - own).abs() < 1e-3, "{own}");
     assert!(share_in_average(1.0, 0.02) > 0.99);
     assert!(share_in_average(0.02, 0.04) < 0.3);
-    // The mean number of places beyond the limit is the one asked for.
-    for (slopes, num_places) in [(5_000.0, 0.05), (50_000.0, 0.02)] {
-        let k: f64 = factor_of(slopes, num_places);
+    // The mean number of places beyond the limit is the one asked for: of a field that is taken everywhere by its slopes, of
+    // a few averages by their probabilities (0.001 beyond 3.29 standard deviations to either side).
+    let field = |slopes, num_averages| AveragedField {
+        slopes,
+        num_averages,
+    };
+    for slopes in [5_000.0, 50_000.0] {
+        let k = factor_of(&[field(slopes, 1e9)], 0.05);
         let expected = 2.0 * slopes / (2.0 * pi).powf(1.5) * k * (-k * k / 2.0).exp();
-        assert!(
-            (expected / num_places - 1.0).abs() < 1e-3,
-            "{k}: {expected}"
-        );
-        assert!((4.0..6.5).contains(&k), "{k}");
+        assert!((expected / 0.05 - 1.0).abs() < 1e-3, "{k}: {expected}");
     }
+    let k = factor_of(&[field(1e9, 100.0)], 0.1);
+    assert!((k - 3.29).abs() < 0.03, "{k}");
 }
