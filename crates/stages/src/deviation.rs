@@ -4,7 +4,7 @@
 //!
 //! 1. Every reading of every frame is held against the surface of the reference, along its normal (`surface`, `readings`).
 //! 2. The part is aligned by what most of its surface says, so that a dent stays a dent (`alignment`).
-//! 3. The deviations are averaged over the frames and over patches of four sizes: a camera's noise falls with the number of
+//! 3. The deviations are averaged over the frames and over patches of five sizes: a camera's noise falls with the number of
 //!    readings, its rounding and other errors that all frames share do not.
 //! 4. The form, all that is larger than a dent, is taken away by a robust local plane, as a robust Gaussian regression filter
 //!    does (ISO 16610-31): what a camera bends, and what part and reference differ by as a whole, is no dent. The nesting index is
@@ -218,12 +218,12 @@ pub struct Deviation {
     pub regions: Vec<DeviationRegion>,
 }
 
-/// Radii of the patches, metres: those of dents of 24 to 84 mm.
-const RADII_M: [f64; 4] = [PATCH_RADIUS_M, 0.019, 0.030, 0.042];
-/// Radius of the patch whose noise is reported, metres.
-pub const PATCH_RADIUS_M: f64 = 0.012;
+/// Radii of the patches, metres: those of dents of 20 to 84 mm.
+const RADII_M: [f64; 5] = [PATCH_RADIUS_M, 0.015, 0.022, 0.031, 0.042];
+/// Radius of the patch whose noise is reported, metres: of the smallest dents that are looked for.
+pub const PATCH_RADIUS_M: f64 = 0.010;
 /// Number of the patches that the form is fitted to: the noise of the smallest ones would hide a dent from a robust fit.
-const FORM_SCALE: usize = 1;
+const FORM_SCALE: usize = 2;
 /// Widths of dents for which the smallest depth is reported, metres.
 const WIDTHS_M: [f64; 3] = [0.02, 0.04, 0.08];
 /// Share of the reference's surface that must be judged.
@@ -280,7 +280,7 @@ pub fn measure_deviation(
     let motion = SmallMotion::onto(&surface, &readings);
     stands_still(&surface, &frames, &motion)?;
     for node in 0..surface.points.len() {
-        readings.offs[node] += readings.nums[node] * motion.off_by(&surface, node);
+        readings.shift(node, motion.off_by(&surface, node));
     }
     let scales = RADII_M.map(|radius| Patches::of(&surface, &readings, radius));
     let form = scales[FORM_SCALE].form(&surface, params.form_radius.0);
@@ -323,7 +323,7 @@ fn stands_still(
     for frame in frames {
         let own = SmallMotion::onto(surface, frame);
         let apart = |node: &usize| own.off_by(surface, *node) - all.off_by(surface, *node);
-        let nodes = (0..surface.points.len()).filter(|node| frame.nums[*node] > 0.0);
+        let nodes = (0..surface.points.len()).filter(|node| frame.num(*node) > 0.0);
         let (num, sum) = nodes.fold((0.0_f64, 0.0), |(num, sum), node| {
             (num + 1.0, sum + apart(&node).powi(2))
         });

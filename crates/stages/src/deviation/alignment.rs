@@ -34,7 +34,7 @@ pub(super) struct SmallMotion {
 impl SmallMotion {
     /// Finds the motion after which most of the readings lie on the surface.
     pub(super) fn onto(surface: &Surface<'_>, readings: &NodeReadings) -> Self {
-        let nodes = (0..surface.points.len()).filter(|node| readings.nums[*node] > 0.0);
+        let nodes = (0..surface.points.len()).filter(|node| readings.num(*node) > 0.0);
         let nodes: Vec<usize> = nodes.collect();
         let mut motion = Self {
             about: surface.middle(&nodes).coords,

@@ -53,23 +53,30 @@ impl Patches {
     pub(super) fn of(surface: &Surface<'_>, readings: &NodeReadings, radius: f64) -> Self {
         let full = WEIGHT_OF_DISC * radius * radius / surface.node_area;
         let each = map_each(surface.points.len(), num_cores(), |node| {
-            if readings.nums[node] <= 0.0 {
+            if readings.num(node) <= 0.0 {
                 return (f64::NAN, f64::NAN);
             }
             let (mut num, mut off, mut weights) = (0.0, 0.0, 0.0);
             let (mut variance, mut squares) = (0.0, 0.0);
-            surface.around(node, radius, |near| {
-                if readings.nums[near] > 0.0 {
-                    let away = surface.points[near] - surface.points[node];
-                    let weight = profile(f64::from(away.norm()), 2.0 * radius);
-                    num += weight * readings.nums[near];
-                    off += weight * readings.offs[near];
-                    variance += weight * weight * readings.variances[near];
-                    squares += (weight * readings.nums[near]).powi(2);
-                    weights += weight;
+            surface.around(node, radius + surface.spacing, |near| {
+                let away = (surface.points[near] - surface.points[node]).cast::<f64>();
+                let mut of_node = 0.0;
+                for quarter in &readings.quarters[near] {
+                    let Some(place) = quarter.place() else {
+                        continue;
+                    };
+                    let weight = profile((away + place).norm(), 2.0 * radius);
+                    of_node += weight * quarter.num;
+                    off += weight * quarter.off;
+                    variance += weight * weight * quarter.variance;
+                }
+                num += of_node;
+                squares += of_node * of_node;
+                if readings.num(near) > 0.0 {
+                    weights += profile(away.norm(), 2.0 * radius);
                 }
             });
-            if weights < MIN_COVERAGE * full {
+            if weights < MIN_COVERAGE * full || num <= 0.0 {
                 return (f64::NAN, f64::NAN);
             }
             let of_reference = REFERENCE_ERROR_M * REFERENCE_ERROR_M * squares;

@@ -1,4 +1,5 @@
-//! What the readings of a frame say of each node of the surface.
+//! What the readings of a frame say of each node of the surface, and of the four quarters around it: nodes are too far apart for
+//! the smallest patches.
 
 use nalgebra::{Point3, Vector3};
 
@@ -17,24 +18,43 @@ pub(super) const MIN_FACING_COSINE: f64 = 0.5;
 /// Reconstruction and Tracking", 3DIMPVT 2012).
 const LATERAL_PIXELS: f64 = 0.5;
 
-/// Sums over the readings at each node.
+/// Sums over the readings in a quarter of what is nearest to a node.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Quarter {
+    /// Number of readings.
+    pub(super) num: f64,
+    /// Of how far outside of the surface they lie, metres.
+    pub(super) off: f64,
+    /// Of the variances that the camera's noise gives them, square metres.
+    pub(super) variance: f64,
+    /// Of their places on the surface, from the node, metres.
+    away: Vector3<f64>,
+}
+
+impl Quarter {
+    fn add(&mut self, other: &Self) {
+        self.num += other.num;
+        self.off += other.off;
+        self.variance += other.variance;
+        self.away += other.away;
+    }
+
+    /// Where its readings lie in the mean, from the node, metres; `None` without readings.
+    pub(super) fn place(&self) -> Option<Vector3<f64>> {
+        (self.num > 0.0).then(|| self.away / self.num)
+    }
+}
+
+/// The readings at each node.
 #[derive(Clone, Debug)]
 pub(super) struct NodeReadings {
-    /// Number of readings.
-    pub(super) nums: Vec<f64>,
-    /// Of how far outside of the surface they lie, metres.
-    pub(super) offs: Vec<f64>,
-    /// Of the variances that the camera's noise gives them, square metres.
-    pub(super) variances: Vec<f64>,
+    pub(super) quarters: Vec<[Quarter; 4]>,
 }
 
 impl NodeReadings {
     fn none(num_nodes: usize) -> Self {
-        let zeros = || vec![0.0; num_nodes];
         Self {
-            nums: zeros(),
-            offs: zeros(),
-            variances: zeros(),
+            quarters: vec![[Quarter::default(); 4]; num_nodes],
         }
     }
 
@@ -64,38 +84,59 @@ impl NodeReadings {
                 continue;
             }
             let along = part.noise_at_1m.0 * depth * depth * facing;
-            let across =
-                LATERAL_PIXELS * depth / focal_length * (1.0 - facing * facing).max(0.0).sqrt();
-            found.nums[node] += 1.0;
-            found.offs[node] += off;
-            found.variances[node] += along * along + across * across;
+            let sine = (1.0 - facing * facing).max(0.0).sqrt();
+            let across = LATERAL_PIXELS * depth / focal_length * sine;
+            let away = at - surface.points[node].cast::<f64>() - normal * off;
+            found.quarters[node][quarter_of(&normal, &away)].add(&Quarter {
+                num: 1.0,
+                off,
+                variance: along * along + across * across,
+                away,
+            });
         }
         found
     }
 
     /// Joins the readings of several frames.
     pub(super) fn joined(frames: &[Self]) -> Self {
-        let num_nodes = frames.first().map_or(0, |first| first.nums.len());
+        let num_nodes = frames.first().map_or(0, |first| first.quarters.len());
         let mut all = Self::none(num_nodes);
         for frame in frames {
-            let pairs = [
-                (&mut all.nums, &frame.nums),
-                (&mut all.offs, &frame.offs),
-                (&mut all.variances, &frame.variances),
-            ];
-            for (sums, values) in pairs {
+            for (sums, values) in all.quarters.iter_mut().zip(&frame.quarters) {
                 for (sum, value) in sums.iter_mut().zip(values) {
-                    *sum += value;
+                    sum.add(value);
                 }
             }
         }
         all
     }
 
+    /// Number of readings at a node.
+    pub(super) fn num(&self, node: usize) -> f64 {
+        self.quarters[node].iter().map(|quarter| quarter.num).sum()
+    }
+
     /// How far outside of the surface the readings of a node lie in the mean, metres; `None` without readings.
     pub(super) fn mean(&self, node: usize) -> Option<f64> {
-        (self.nums[node] > 0.0).then(|| self.offs[node] / self.nums[node])
+        let off: f64 = self.quarters[node].iter().map(|quarter| quarter.off).sum();
+        let num = self.num(node);
+        (num > 0.0).then(|| off / num)
     }
+
+    /// Moves the readings of a node further outside, by metres.
+    pub(super) fn shift(&mut self, node: usize, by: f64) {
+        for quarter in &mut self.quarters[node] {
+            quarter.off += quarter.num * by;
+        }
+    }
+}
+
+/// The quarter around a node that a place lies in.
+fn quarter_of(normal: &Vector3<f64>, away: &Vector3<f64>) -> usize {
+    let first = normal.cross(&Vector3::ith(normal.iamin(), 1.0));
+    let second = normal.cross(&first);
+    let is_beyond = |axis: &Vector3<f64>| usize::from(away.dot(axis) > 0.0);
+    2 * is_beyond(&first) + is_beyond(&second)
 }
 
 /// True if a pixel and those around it show one surface.

@@ -85,7 +85,7 @@ fn a_dent_is_found_where_it_is_and_nothing_on_a_good_part() {
     let good = good.expect("measured");
     assert!(good.regions.is_empty(), "{:?}", good.regions);
     assert!(good.seen > 0.6, "{}", good.seen);
-    assert!((0.0001..0.001).contains(&good.noise.0), "{:?}", good.noise);
+    assert!((0.0001..0.0015).contains(&good.noise.0), "{:?}", good.noise);
     let place = smoothest(&good.patches);
     for height in [-0.004, 0.004] {
         let dent = Dent {
