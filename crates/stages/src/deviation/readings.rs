@@ -3,7 +3,10 @@
 
 use nalgebra::{Point3, Vector3};
 
-use super::{StandingPart, surface::Surface};
+use super::{
+    StandingPart,
+    surface::{MAX_OFF_M, Surface},
+};
 use crate::scene::SceneCloud;
 use geometry::{cloud::is_finite, rigid::RigidTransform};
 
@@ -14,6 +17,8 @@ const SAME_SURFACE_PIXELS: [usize; 2] = [1, 3];
 const JUMP_SHARE: f32 = 0.02;
 /// Cosine between the surface and the ray from which readings are judged: up to 60°. Beyond, noise and losses grow.
 pub(super) const MIN_FACING_COSINE: f64 = 0.5;
+/// Standard deviations of the noise by which a reading of the surface may lie further off.
+const LIMIT_DEVIATIONS: f64 = 3.0;
 /// Error across the rays, pixels (C. V. Nguyen, S. Izadi and D. Lovell, "Modeling Kinect Sensor Noise for Improved 3D
 /// Reconstruction and Tracking", 3DIMPVT 2012).
 const LATERAL_PIXELS: f64 = 0.5;
@@ -75,7 +80,10 @@ impl NodeReadings {
             }
             let depth = f64::from(frame.cloud.points[index].z);
             let at = part_from_camera * frame.cloud.points[index].cast::<f64>();
-            let Some((node, off)) = surface.off(&at.cast()) else {
+            let noise = part.noise_at_1m.0 * depth * depth;
+            // Without room for the noise, it would be cut off on one side of a dent.
+            let limit = MAX_OFF_M + LIMIT_DEVIATIONS * noise;
+            let Some((node, off)) = surface.off(&at.cast(), limit) else {
                 continue;
             };
             let normal: Vector3<f64> = surface.normals[node].cast();
@@ -83,7 +91,7 @@ impl NodeReadings {
             if surface.is_margin[node] || facing < MIN_FACING_COSINE {
                 continue;
             }
-            let along = part.noise_at_1m.0 * depth * depth * facing;
+            let along = noise * facing;
             let sine = (1.0 - facing * facing).max(0.0).sqrt();
             let across = LATERAL_PIXELS * depth / focal_length * sine;
             let away = at - surface.points[node].cast::<f64>() - normal * off;

@@ -14,7 +14,7 @@ use geometry::{
     statistics::median,
 };
 
-/// Distance off the surface beyond which a reading is of something else, metres.
+/// Distance off the surface beyond which a reading without noise is of something else, metres.
 pub(super) const MAX_OFF_M: f64 = 0.012;
 /// Radius of the nodes that make the surface at a point, in their spacings.
 const SUPPORT_SPACINGS: f64 = 2.2;
@@ -74,7 +74,9 @@ impl<'a> Surface<'a> {
             details: Vec::new(),
         };
         let at_nodes = map_each(points.len(), num_cores(), |node| {
-            let off = surface.off(&points[node]).map_or(0.0, |(_, off)| off);
+            let off = surface
+                .off(&points[node], MAX_OFF_M)
+                .map_or(0.0, |(_, off)| off);
             (off, surface.is_border(node))
         });
         for (node, (bias, is_border)) in at_nodes.into_iter().enumerate() {
@@ -106,11 +108,11 @@ impl<'a> Surface<'a> {
         excess.map(f64::sqrt).collect()
     }
 
-    /// Returns the node nearest to a point, and how far outside of the surface the point lies, metres; `None` if it is of something
-    /// else.
-    pub(super) fn off(&self, at: &Point3<f32>) -> Option<(usize, f64)> {
+    /// Returns the node nearest to a point, and how far outside of the surface the point lies, metres; `None` if that is more than
+    /// `limit`.
+    pub(super) fn off(&self, at: &Point3<f32>, limit: f64) -> Option<(usize, f64)> {
         let support = SUPPORT_SPACINGS * self.spacing;
-        let reach = support.hypot(MAX_OFF_M) as f32;
+        let reach = support.hypot(limit) as f32;
         let nearest = self.tree.nearest(at, reach * reach)?.index;
         let towards = self.normals[nearest];
         let (mut sum, mut weights) = (0.0, 0.0);
@@ -130,7 +132,7 @@ impl<'a> Surface<'a> {
         });
         let off = sum / weights;
         // Also refuses NaN.
-        (off.abs() <= MAX_OFF_M).then_some((nearest, off))
+        (off.abs() <= limit).then_some((nearest, off))
     }
 
     /// Calls `visit` with each node of the same surface within `radius` (metres) of a node, itself included.
