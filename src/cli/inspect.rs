@@ -28,7 +28,7 @@ use super::{
     trace::TraceChoice,
 };
 use capture::{Captured, FeedItem, FeedStatus, SourceSpec};
-use inspection::pipeline::MirrorTally;
+use inspection::pipeline::{CheckedParts, MirrorTally};
 use records::report::ReportFolder;
 use station::{
     CameraScenes, Following, LineTracker, MotionWatch, NewFrame, PartFollower, SceneToInspect,
@@ -48,6 +48,8 @@ Examples:
   partsight inspect rack.pcd --expect fender,front_door
   partsight inspect rack.pcd --orders orders.csv --order 4711
   partsight inspect rack.pcd --rack rack_a.toml
+  partsight inspect door.pcd --surface
+  partsight inspect still_1.png still_2.png still_3.png --surface --average 3
   partsight inspect door.pcd --matcher paper --pose icp-ga
   partsight inspect door.pcd --json --calibration cell.toml
   partsight inspect last-week/*.png --json --calibration cell.toml --force
@@ -112,6 +114,14 @@ pub(super) struct InspectArgs {
     line: LineChoice,
     #[command(flatten)]
     carried: carried_path::CarriedPathChoice,
+    /// Check the surface of each accepted part: dents, bumps and what is missing. Without it, only parts are checked whose zones
+    /// ask for it
+    #[arg(long, conflicts_with = "scan")]
+    surface: bool,
+    /// With --surface: every N files in a row are frames of one part that stands still; the first is inspected, and the surface is
+    /// averaged over all
+    #[arg(long, value_name = "N", default_value_t = 1, requires = "surface", conflicts_with_all = ["source", "scan"], value_parser = clap::value_parser!(u16).range(1..=64))]
+    average: u16,
     /// Write one line of JSON per file, and nothing else, to standard output
     #[arg(long)]
     json: bool,
@@ -145,7 +155,8 @@ fn inspect(
     console: &mut Console,
 ) -> anyhow::Result<Outcome> {
     let recipe = args.recipe.recipe()?;
-    let num_parts = args.source.is_none().then_some(args.files.len());
+    let num_parts = args.files.len().div_ceil(args.average.into());
+    let num_parts = args.source.is_none().then_some(num_parts);
     let trace = args.trace.of_parts(num_parts)?;
     let database = args.recording.database(console)?;
     let (place, load) = (args.library).load_placed(&recipe.reference_params(), console)?;
@@ -160,7 +171,7 @@ fn inspect(
     let format = match (args.json, args.files.as_slice()) {
         (true, _) => OutputFormat::Json,
         (false, []) => OutputFormat::Rows(Columns::for_captures(&load.library)),
-        (false, [_]) => OutputFormat::Card,
+        (false, files) if files.len() <= usize::from(args.average) => OutputFormat::Card,
         (false, files) => OutputFormat::Rows(Columns::for_files(files, &load.library)),
     };
     let report = args.report.as_deref().map(ReportFolder::make);
@@ -184,6 +195,11 @@ fn inspect(
         recipe,
         robot,
         is_forced: args.carried.is_forced(),
+        checked: if args.surface {
+            CheckedParts::All
+        } else {
+            CheckedParts::OfZones
+        },
     };
     let mut one = InspectSession {
         station: Station::new(setup, following),
@@ -203,7 +219,7 @@ fn inspect(
     };
     let outcome = match &args.source {
         Some(source) => inspect_source(source, args.frames, &mut one, console),
-        None => inspect_files(args.files.len(), scenes, &mut one, console),
+        None => inspect_files(args, scenes, &mut one, console),
     };
     if let Some(suspicion) = one.mirrored.suspicion() {
         console.warn(&suspicion, &suspicion);
@@ -223,16 +239,27 @@ fn inspect(
 }
 
 fn inspect_files(
-    num_files: usize,
-    scenes: Scenes<'_>,
+    args: &InspectArgs,
+    mut scenes: Scenes<'_>,
     one: &mut InspectSession,
     console: &mut Console,
 ) -> anyhow::Result<Outcome> {
-    console.start_progress(num_files);
+    console.start_progress(args.files.len());
     let mut outcome = Outcome::Accepted;
-    for (path, opened) in scenes {
+    let num_more = usize::from(args.average) - 1;
+    while let Some((path, opened)) = scenes.next() {
         console.begin(&path.display());
-        outcome = outcome.max(one.inspect(path, opened, console)?);
+        let mut more = Vec::with_capacity(num_more);
+        for (path, opened) in scenes.by_ref().take(num_more) {
+            match opened {
+                Ok((scene, _)) => more.push(scene),
+                Err(error) => {
+                    outcome = outcome.max(one.unreadable(path, &error, &error, console)?);
+                }
+            }
+            console.done();
+        }
+        outcome = outcome.max(one.inspect(path, opened, more, console)?);
         console.done();
     }
     Ok(outcome)
@@ -348,6 +375,7 @@ fn to_inspect(
         path: Path::new(&captured.name).to_owned(),
         subject: Subject::of_capture(&captured, source, status.num_dropped),
         captured_at: Some(NewFrame::of_source(source).captured_at(&captured)),
+        more: Vec::new(),
         scene: scene_of(captured, scenes, console),
         // Last, as it may wait.
         watched: motion_watch.map(|motion| motion.motion_of(taken_at, arrived, || false)),

@@ -1,6 +1,7 @@
 //! `partsight library`: the enrolled parts.
 
 mod spray_path;
+mod surface;
 
 use crate::cli::input::parse_name;
 use clap::{Args, Subcommand};
@@ -29,6 +30,7 @@ Examples:
   partsight library remove front_door
   partsight library restore front_door
   partsight library path front_door path.csv
+  partsight library surface front_door --check true --tolerance 2.5
 
 A library is a folder with one folder per part. Copy it to take it along.")]
 pub(super) struct LibraryArgs {
@@ -65,6 +67,7 @@ enum LibraryCommand {
         name: PartName,
     },
     Path(spray_path::PathArgs),
+    Surface(surface::SurfaceArgs),
     #[command(flatten)]
     Plant(plant::LibraryCommand),
 }
@@ -94,6 +97,7 @@ pub(super) fn run(args: &LibraryArgs, console: &mut Console) -> anyhow::Result<O
         LibraryCommand::Remove { name } => remove(&args.library, name, console),
         LibraryCommand::Restore { name } => restore(&args.library, name, console),
         LibraryCommand::Path(asked) => spray_path::run(&args.library, asked, console),
+        LibraryCommand::Surface(asked) => surface::run(&args.library, asked, console),
         LibraryCommand::Plant(command) => plant::library(command, &args.library, console),
     }
 }

@@ -34,6 +34,7 @@ mod serve;
 mod servo;
 mod servo_choice;
 mod simulate;
+mod surface;
 mod trace;
 mod verdict;
 

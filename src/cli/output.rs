@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use super::{
     console::Console,
+    surface::surface_words,
     verdict::{accepted_or_not, in_column, in_robot_words, place_of, show_card},
 };
 use files::visible;
@@ -55,7 +56,12 @@ impl OutputFormat {
             };
             match self {
                 Self::Json => {}
-                Self::Card => show_card(&shown, part, library, console),
+                Self::Card => {
+                    show_card(&shown, part, library, console);
+                    for (what, text) in surface_words(part.inspection) {
+                        console.entry(what, &text);
+                    }
+                }
                 Self::Rows(columns) => columns.inspected(&shown, part, library, console),
             }
         }
@@ -169,6 +175,9 @@ impl Columns {
         if let Some([why, what_to_do]) = inspection.verdict.complaint() {
             console.line(&format_args!("    why not  {why}"));
             console.line(&format_args!("    to do    {what_to_do}"));
+        }
+        for (what, text) in surface_words(inspection) {
+            console.line(&format_args!("    {what:<8} {text}"));
         }
         // A row has the camera's numbers, and room to say why a robot gets none.
         if !inspected.doubts().is_empty() {

@@ -48,6 +48,52 @@ fn the_pose_is_that_of_the_simulation() {
     }
 }
 
+#[test]
+fn a_surface_is_averaged_over_frames_of_a_standing_part_and_only_if_asked_for() {
+    let place = Workplace::new();
+    place.with_part("fender");
+    for seed in ["1", "2", "3"] {
+        let out = format!("{seed}.png");
+        let pose = "2deg -3deg 5deg 0mm 0mm 1200mm";
+        place.accepted(&[
+            "simulate", "--part", "fender", "--pose", pose, "--seed", seed, "--out", &out,
+        ]);
+    }
+    let frames = ["inspect", "1.png", "2.png", "3.png", "--library", "parts"];
+    let averaged = [&frames[..], &["--surface", "--average", "3"]].concat();
+    let ran = place.run(&[&averaged[..], &["--json"]].concat());
+    let lines = ran.lines();
+    let [line] = &lines[..] else {
+        panic!("{}", ran.out);
+    };
+    let surface = &line["surface"];
+    assert_eq!(line["accepted"], true, "{line}");
+    assert_eq!(surface["measured"]["frames"], 3, "{line}");
+    let between = surface["measured"]["noise_between_m"].as_f64();
+    let noise = surface["measured"]["noise_m"].as_f64();
+    assert!(noise.is_some_and(|noise| noise < 0.005), "{line}");
+    assert!(between.is_some_and(|between| between > 0.0), "{line}");
+    // The surface decides the exit code, too.
+    assert_eq!(ran.code, i32::from(surface["verdict"] != "ok"), "{line}");
+    let card = place.run(&averaged).out;
+    assert!(card.contains("3 frames averaged"), "{card}");
+    let plain = place.accepted(&[&frames[..], &["--json"]].concat());
+    let lines = plain.lines();
+    assert_eq!(lines.len(), 3);
+    assert!(lines.iter().all(|line| line.get("surface").is_none()));
+
+    // The zones of a part ask for it.
+    let library = ["--library", "parts"];
+    let set = ["library", "surface", "fender", "--check", "true"];
+    let set = [&set[..], &["--tolerance", "30"], &library].concat();
+    assert!(place.accepted(&set).out.contains("good up to 30 mm"));
+    let checked = place.run(&["inspect", "1.png", "--json", "--library", "parts"]);
+    let verdict = checked.lines()[0]["surface"]["verdict"].clone();
+    assert!(verdict == "ok" || verdict == "not_judged", "{verdict}");
+    let refused = place.run(&["inspect", "1.png", "--average", "3"]);
+    assert_eq!(refused.code, 2, "{}", refused.err);
+}
+
 /// Writes a depth image of two parts: at each pixel the nearer reading of two frames with one of them each.
 fn two_parts(place: &Workplace, merged: &str) {
     place.with_made(&["two parts", merged], |place| {

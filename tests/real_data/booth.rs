@@ -19,10 +19,12 @@ use partsight::{
         enrol_surface, likenesses, surfaces_to_enrol,
     },
     pipeline::{
-        BUILT_IN_RECIPES, Inspection, PoseChoice, Recipe, Unwatched, Verdict, built_in_recipe, run,
+        BUILT_IN_RECIPES, Inspection, PoseChoice, Recipe, Unwatched, Verdict, built_in_recipe,
+        measure_surface, run,
     },
     robot::cell_check::{CellBaseline, CellFinding, CellLimits, CellView},
     stages::{
+        deviation::DeviationParams,
         pose::{PoseEstimate, PoseMethod},
         scene::{SceneCloud, scene_from_cloud, scene_from_frame},
         segment::{PointLabel, SegmentParams, SegmentedPart, segment},
@@ -258,6 +260,7 @@ fn a_frame_that_shows_too_little_to_be_recognised_in_it_is_warned_of() {
         assert_eq!(enrolled.warnings.iter().any(is_warned), is_little, "{name}");
         let library = Library {
             references: vec![enrolled.reference],
+            ..Library::default()
         };
         let found = run(&scene, &library, &Recipe::default(), &Unwatched).expect("not cancelled");
         assert_eq!(found.verdict.is_accepted(), !is_little, "{name}");
@@ -326,6 +329,46 @@ fn parts_of_a_booth_are_named_and_placed_where_the_robot_says() {
     );
 }
 
+#[test]
+fn hardly_a_good_part_of_a_booth_has_a_dent() {
+    let Some(data) = data_folder() else { return };
+    let booth = data.join("booth");
+    let truth = Truth::read(&booth);
+    let library = library(&booth, &truth);
+    let files: Vec<&String> = truth.frames.keys().collect();
+    let measured = map_each(files.len(), num_cores(), |number| {
+        let scene = scene(&booth.join(files[number]));
+        let found = run(&scene, &library, &Recipe::default(), &Unwatched).expect("not cancelled");
+        measure_surface(&found, &library, &[&scene], &DeviationParams::default())
+    });
+    let (mut num_measured, mut num_with_regions) = (0, 0);
+    for (file, measured) in files.iter().zip(measured) {
+        match measured {
+            None => println!("{file}: not accepted"),
+            Some(Err(error)) => println!("{file}: {error}"),
+            Some(Ok(found)) => {
+                num_measured += 1;
+                num_with_regions += usize::from(!found.regions.is_empty());
+                let regions = found.regions.iter();
+                let regions: Vec<_> = regions
+                    .map(|region| (region.kind, region.off, region.area_m2, region.centre))
+                    .collect();
+                println!(
+                    "{file}: {:.0} % judged, noise {:.2} mm, limit {:.2} mm, found {regions:?}",
+                    100.0 * found.seen,
+                    found.noise.mm(),
+                    found.limit_factor * found.noise.mm()
+                );
+            }
+        }
+    }
+    assert!(num_measured >= 7, "{num_measured} measured");
+    assert!(
+        10 * num_with_regions <= num_measured,
+        "{num_with_regions} of {num_measured}"
+    );
+}
+
 /// A strip of 16 or 32 mm without readings runs across the part.
 #[test]
 fn a_part_that_a_strip_without_readings_cuts_in_two_is_found_in_its_place() {
@@ -367,6 +410,7 @@ fn a_part_whose_pose_is_ambiguous_is_accepted_by_no_pose_method() {
     for door in ["right2_03", "right2_04"] {
         let library = Library {
             references: vec![enrolled("left2_01", "fender"), enrolled(door, "door")],
+            ..Library::default()
         };
         for name in BUILT_IN_RECIPES {
             for method in PoseMethod::ALL {

@@ -26,6 +26,7 @@ fn assert_found(enrolled: &Enrolled, frame: &Path) {
         nalgebra::try_convert(nalgebra::Matrix4::from_row_slice(&rows)).expect("a pose");
     let library = Library {
         references: vec![enrolled.reference.clone()],
+        ..Library::default()
     };
     let scene = scene_from_frame(&depth);
     let inspection = run(&scene, &library, &Recipe::default(), &Unwatched).expect("run");

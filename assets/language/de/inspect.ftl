@@ -68,6 +68,14 @@ inspect-iterations = { $num ->
        *[other] { $num } Iterationen
     }
 inspect-ambiguous = Eine andere Pose passt ebenso gut: prüfen, wie herum das Teil hängt
+inspect-surface = Oberfläche
+inspect-surface-is = Oberfläche: { $verdict }
+inspect-surface-advice = Die umrandeten Stellen ansehen, bevor das Teil weitergeht
+inspect-surface-region = abweichende Stelle
+inspect-surface-frames = gemittelte Bilder
+inspect-surface-seen = beurteilt von der Kameraseite
+inspect-surface-noise = Rauschen des Mittels
+inspect-surface-smallest = Delle, { $width } breit, gefunden ab
 inspect-inspection = Prüfung
 inspect-time = Zeit
 inspect-scene = Szene

@@ -68,6 +68,14 @@ inspect-iterations = { $num ->
        *[other] { $num } iterations
     }
 inspect-ambiguous = Another pose fits as well: check which way round the part hangs
+inspect-surface = Surface
+inspect-surface-is = Surface: { $verdict }
+inspect-surface-advice = Look at the ringed regions before the part goes on
+inspect-surface-region = deviating region
+inspect-surface-frames = frames averaged
+inspect-surface-seen = judged of what faces the camera
+inspect-surface-noise = noise of the average
+inspect-surface-smallest = dent { $width } wide, found from
 inspect-inspection = Inspection
 inspect-time = time
 inspect-scene = scene

@@ -68,6 +68,14 @@ inspect-iterations = { $num ->
        *[other] { $num } iteraciones
     }
 inspect-ambiguous = Otra pose encaja igual de bien: comprobar en qué sentido cuelga la pieza
+inspect-surface = Superficie
+inspect-surface-is = Superficie: { $verdict }
+inspect-surface-advice = Mire las zonas rodeadas antes de que la pieza continúe
+inspect-surface-region = zona que se desvía
+inspect-surface-frames = fotogramas promediados
+inspect-surface-seen = evaluado del lado de la cámara
+inspect-surface-noise = ruido del promedio
+inspect-surface-smallest = abolladura de { $width }, se detecta desde
 inspect-inspection = Inspección
 inspect-time = tiempo
 inspect-scene = escena

@@ -14,6 +14,7 @@ mod serve;
 mod servo;
 mod soak;
 mod speed;
+mod surface;
 mod systems;
 mod table1;
 mod window;
@@ -64,6 +65,7 @@ Examples:
   partsight-bench servo --runs 500 --first 500 --reference fender.png --reference door.png --json second.json
   partsight-bench servo --read first.json second.json
   partsight-bench line --runs 50 --json line.json
+  partsight-bench surface --average 8 --json surface.json
   partsight-bench soak --frames 1000000 --plot soak.png
 
 Each part is enrolled from one frontal capture of the standard car, then seen in sets of simulated frames. Without a
@@ -132,6 +134,8 @@ enum Experiment {
     Servo(servo::ServoArgs),
     /// Simulated lines whose parts pass the camera: whether each is found once and in time, and the errors of poses at later counts
     Line(line::LineArgs),
+    /// Dents pressed into parts: which are found by their surface, averaged over several frames, and what is found on good parts
+    Surface(surface::SurfaceArgs),
     /// Small frames, one after the other, through all that inspect --source does: latency, memory, threads and open files; exit code 1 if the memory grows by more than 2 % after the warm-up
     Soak(soak::SoakArgs),
 }
@@ -165,6 +169,7 @@ impl Experiment {
             Self::Serve(args) => serve::run(args, console),
             Self::Servo(args) => servo::run(args, console),
             Self::Line(args) => line::run(args, console),
+            Self::Surface(args) => surface::run(args, console),
             Self::Soak(args) => soak::run(args, console),
         }
     }

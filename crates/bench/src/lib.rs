@@ -17,6 +17,7 @@ pub mod registration;
 pub mod servo;
 pub mod speed;
 pub mod suites;
+pub mod surface;
 pub mod systems;
 pub mod table1;
 pub mod window_cost;

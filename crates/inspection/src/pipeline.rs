@@ -27,9 +27,12 @@ mod refusal;
 mod rejection;
 pub mod scan;
 mod surface;
+mod surface_check;
 mod unsound;
 mod verdict;
 mod watch;
+
+use std::{slice, sync::Arc};
 
 use nalgebra::Point3;
 
@@ -70,6 +73,10 @@ pub use self::{
     recipe_folder::{RecipeFolder, RecipeList, Replace, open_recipe},
     refusal::{Refusal, RefusalKind},
     rejection::{Rejection, Unrecognisable},
+    surface_check::{
+        CheckedParts, JudgedRegion, NotJudged, SurfaceCheck, SurfaceVerdict, check_surfaces,
+        measure_surface,
+    },
     verdict::{AcceptParams, Verdict},
     watch::{Cancelled, ProgressObserver, Stage, Timings},
 };
@@ -216,6 +223,8 @@ pub struct Inspection {
     pub leaves_volume: bool,
     /// Of the first part of a frame in which parts are expected: those that nothing hangs in place of.
     pub missing: Option<Vec<ExpectedPart>>,
+    /// The check of an accepted part's surface, if it was checked.
+    pub surface: Option<Arc<SurfaceCheck>>,
     /// How long each stage took.
     pub timings: Timings,
 }
@@ -237,7 +246,10 @@ pub fn run(
         expected.is_empty() || expected.has_any(found)
     })?;
     let accepted = found.iter().position(|one| one.verdict.is_accepted());
-    Ok(found.swap_remove(accepted.unwrap_or(0)))
+    let mut inspection = found.swap_remove(accepted.unwrap_or(0));
+    let checked = slice::from_mut(&mut inspection);
+    check_surfaces(checked, &[scene], library, CheckedParts::OfZones);
+    Ok(inspection)
 }
 
 /// Inspects a surface after the other of a scene, until nothing of a part's size is left that is neither background nor
@@ -274,6 +286,7 @@ pub fn run_all(
         let missing = missing.into_iter().cloned().collect();
         found[0].missing = Some(missing);
     }
+    check_surfaces(&mut found, &[scene], library, CheckedParts::OfZones);
     Ok(found)
 }
 
@@ -429,6 +442,7 @@ impl Inspection {
             turn_at_place: None,
             leaves_volume: false,
             missing: None,
+            surface: None,
             timings: Timings::default(),
         }
     }

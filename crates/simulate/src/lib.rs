@@ -17,6 +17,7 @@ mod beam;
 mod booth;
 mod cell;
 mod clutter;
+mod dent;
 #[cfg(any(test, feature = "fixtures"))]
 pub mod fixtures;
 mod line;
@@ -40,6 +41,7 @@ mod variation;
 
 pub use cell::{CellSetup, PartPose, SimulatedObject, Surroundings};
 pub use clutter::Clutter;
+pub use dent::Dent;
 pub use line::{LineEncoder, LinePart, LineSetup, SimulatedLine};
 pub use object::ObjectKind;
 pub use part::{PartKind, PartModel, Side};

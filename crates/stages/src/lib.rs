@@ -10,12 +10,14 @@
 //! - [`paper`] is the paper's own method of matching and pose; [`locate`] estimates the pose of a scene's part with it.
 //! - [`confirm`] scores the best references by surface, outline and openings.
 //! - [`scan`] combines several frames; [`stand_off`] is the distance of the nozzle, computed where it is shown.
+//! - [`deviation`] holds the surface of an accepted part against its reference: dents, bumps, missing surface.
 //! - [`descriptors`] are those of other systems, for comparison.
 
 pub mod confirm;
 pub mod contour;
 pub mod correlation;
 pub mod descriptors;
+pub mod deviation;
 pub mod field_of_view;
 #[cfg(any(test, feature = "fixtures"))]
 pub mod fixtures;

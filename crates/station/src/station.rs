@@ -2,7 +2,7 @@
 
 use std::{
     collections::VecDeque,
-    mem,
+    iter, mem,
     path::PathBuf,
     sync::Arc,
     time::{Duration, Instant},
@@ -12,7 +12,7 @@ use super::{Followed, Inspected, LineTracker, Moment, PartFollower, Subject};
 use inspection::{
     library::Library,
     pipeline::{
-        Inspection, NamedRecipe, Unwatched,
+        CheckedParts, Inspection, NamedRecipe, Unwatched, check_surfaces,
         live::{InspectionRate, SceneMotion, refuse_moving},
         run_all,
     },
@@ -42,6 +42,8 @@ pub struct StationSetup {
     pub robot: Option<RobotFrame>,
     /// True to give a robot the pose of an accepted part despite doubts.
     pub is_forced: bool,
+    /// The parts whose surfaces are checked.
+    pub checked: CheckedParts,
 }
 
 /// How scenes belong together.
@@ -64,6 +66,8 @@ pub struct SceneToInspect {
     pub subject: Subject,
     /// When a source captured it.
     pub captured_at: Option<Instant>,
+    /// Further frames of the same standing part, to average its surface.
+    pub more: Vec<SceneCloud>,
     /// What a [`MotionWatch`](super::MotionWatch) knows after it, of a source of which not every frame is inspected.
     pub watched: Option<SceneMotion>,
 }
@@ -273,6 +277,7 @@ impl<E> Station<E> {
             scene,
             subject,
             captured_at,
+            more,
             watched,
         } = scene;
         let mut scene = Arc::new(scene);
@@ -282,9 +287,16 @@ impl<E> Station<E> {
             scene = follower.look(scene, capture.taken_at, capture.number, watched);
         }
         let StationSetup {
-            library, recipe, ..
+            library,
+            recipe,
+            checked,
+            ..
         } = &self.setup;
         let mut parts = run_all(&scene, library, recipe, &Unwatched).expect("not cancelled");
+        if *checked != CheckedParts::default() || !more.is_empty() {
+            let frames: Vec<&SceneCloud> = iter::once(&*scene).chain(&more).collect();
+            check_surfaces(&mut parts, &frames, library, *checked);
+        }
         let mut at = Duration::ZERO;
         if let Following::Hanging(follower) = &mut self.following {
             follower.refuse_if_moving(&mut parts);
@@ -400,6 +412,7 @@ mod tests {
                 path: (&captured.name).into(),
                 subject: Subject::of_capture(&captured, &source, 0),
                 captured_at: None,
+                more: Vec::new(),
                 watched: None,
                 scene: scenes.next(captured.image),
             }

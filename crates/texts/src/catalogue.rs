@@ -23,7 +23,7 @@ pub static LIBRARY: Catalogue = Catalogue::new(files);
 
 macro_rules! files {
     ($language:literal) => {
-        files!($language: "cell" "convention" "doubt" "enrol" "expected" "orders" "point" "pose" "rack" "recipe" "refusal" "result" "scan" "serve" "servo" "unchecked")
+        files!($language: "cell" "convention" "doubt" "enrol" "expected" "orders" "point" "pose" "rack" "recipe" "refusal" "result" "scan" "serve" "servo" "surface" "unchecked")
     };
     ($language:literal: $($area:literal)+) => {
         &[$(($area, include_str!(concat!("../language/", $language, "/", $area, ".ftl")))),+]

@@ -12,13 +12,13 @@ use crate::cli::{
     record::HistoryRecorder,
 };
 use geometry::error::{Advice, Fault, guarded};
-use inspection::pipeline::{Inspection, MirrorTally};
+use inspection::pipeline::{Inspection, MirrorTally, SurfaceVerdict};
 use records::{
     history::{HungId, NewEntry, Traceability},
     report::{InspectionLine, Picture, ReportFolder, frame_pictures},
 };
 use serve::Found;
-use stages::scene::EmptyCell;
+use stages::scene::{EmptyCell, SceneCloud};
 use station::{CameraScenes, Inspected, InspectedScene, SceneToInspect, Settled, Station, Subject};
 
 /// State shared by all files or frames of a call.
@@ -67,6 +67,7 @@ impl InspectSession {
         &mut self,
         path: &Path,
         opened: OpenedScene,
+        more: Vec<SceneCloud>,
         console: &mut Console,
     ) -> anyhow::Result<Outcome> {
         match opened {
@@ -80,6 +81,7 @@ impl InspectSession {
                     scene,
                     subject,
                     captured_at: None,
+                    more,
                     watched: None,
                 };
                 self.frame(path, console, |one, console| one.next(scene, console))
@@ -200,7 +202,12 @@ impl InspectSession {
         line: &str,
         console: &Console,
     ) -> anyhow::Result<Outcome> {
-        let is_met = self.station.setup().recipe.is_met(&scene.parts);
+        let is_good = |part: &Inspection| {
+            let surface = part.surface.as_ref();
+            surface.is_none_or(|surface| surface.verdict == SurfaceVerdict::Ok)
+        };
+        let is_met =
+            self.station.setup().recipe.is_met(&scene.parts) && scene.parts.iter().all(is_good);
         let outcome = Outcome::accepted_if(is_met);
         if let Some(written) = self.write_robot_file(scene, console) {
             // A refused part keeps its outcome even if its program was forced.
@@ -289,7 +296,6 @@ impl InspectSession {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use stages::scene::SceneCloud;
     use station::{Following, StationSetup};
 
     #[test]
@@ -324,6 +330,7 @@ mod tests {
                 scene: SceneCloud::default(),
                 subject: Subject::of_scene("b.pcd".into(), "file".into(), false),
                 captured_at: None,
+                more: Vec::new(),
                 watched: None,
             };
             one.next(scene, console)

@@ -191,6 +191,7 @@ impl Follower {
             path: (&captured.name).into(),
             subject: Subject::of_capture(&captured, &self.source, 0),
             captured_at: None,
+            more: Vec::new(),
             watched: None,
             scene: self.scenes.next(captured.image),
         };

@@ -358,6 +358,7 @@ fn assemble(
             },
             side,
             spray: None,
+            surface: None,
         },
         thumbnail: thumbnail::render(&reference, source.coverage),
         signature,

@@ -61,6 +61,15 @@ pub enum LibraryError {
         /// The most that can be used together.
         limit: usize,
     },
+    /// The zones of a surface are not valid; what was stored before is unchanged.
+    #[error("{name}: {found}")]
+    #[advice = "Give lengths above 0 millimetres, and a limit of scrap of at least the tolerance"]
+    BadZones {
+        /// The part.
+        name: PartName,
+        /// What is wrong.
+        found: String,
+    },
     /// There is no part with this name.
     #[error("{}: no part named {name}{}", path.display(), listed(available))]
     #[advice(if available.is_empty() {

@@ -180,6 +180,10 @@ fn load_entries(
     for read in map_each(entries.len(), num_cores(), read_one) {
         match read {
             Ok(part) => {
+                if let Some(zones) = &part.meta.surface {
+                    let name = part.meta.name.to_string();
+                    load.library.surface_zones.insert(name, zones.clone());
+                }
                 load.library.references.push(part.reference);
                 load.parts.push(part.meta);
                 load.warnings.extend(part.warnings);

@@ -38,9 +38,12 @@ mod spray_path;
 mod spray_store;
 mod store;
 mod stored_part;
+mod surface_zones;
 mod thumbnail;
 mod trash;
 mod truth;
+
+use std::collections::BTreeMap;
 
 use stages::reference::Reference;
 
@@ -71,6 +74,7 @@ pub use self::{
     },
     store::{LibraryFolder, Renamed, Restored, Saved},
     stored_part::StoredPart,
+    surface_zones::{SurfaceZone, SurfaceZones},
     trash::TrashEntry,
     truth::Truth,
 };
@@ -80,6 +84,8 @@ pub use self::{
 pub struct Library {
     /// The references, sorted by name.
     pub references: Vec<Reference>,
+    /// The zones of the references that have some, by the name under which they are enrolled.
+    pub surface_zones: BTreeMap<String, SurfaceZones>,
 }
 
 impl Library {

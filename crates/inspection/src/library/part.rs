@@ -5,7 +5,7 @@ use jiff::Timestamp;
 use nalgebra::Point2;
 use serde::{Deserialize, Serialize};
 
-use super::{entry::SPRAY_PREFIX, name::PartName, side::Side};
+use super::{entry::SPRAY_PREFIX, name::PartName, side::Side, surface_zones::SurfaceZones};
 use files::{crc32, write_ply};
 use geometry::{cloud::PointCloud, rigid::row_major};
 use stages::{
@@ -71,6 +71,9 @@ pub struct PartMeta {
     /// The stored spray path, if any.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub spray: Option<FileCheck>,
+    /// How its surface is checked; `None` if it is not.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub surface: Option<SurfaceZones>,
 }
 
 impl PartMeta {

@@ -373,6 +373,7 @@ mod tests {
         let enrolled = enrolled.into_iter();
         Library {
             references: enrolled.map(|enrolled| enrolled.reference).collect(),
+            ..Library::default()
         }
     }
 

@@ -22,6 +22,7 @@ pub fn enrol_standard_parts(params: &EnrolParams) -> Result<Library, EnrolError>
             .into_iter()
             .map(enrol)
             .collect::<Result<_, _>>()?,
+        ..Library::default()
     })
 }
 

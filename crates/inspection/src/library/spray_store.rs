@@ -1,4 +1,4 @@
-//! Storage of spray paths in a library.
+//! Storage of spray paths in a library, and of what `part.toml` says of painting and checking a surface.
 //!
 //! The file of a path is named after its checksum, which `part.toml` contains: a new path is written next to the old
 //! one and becomes valid when `part.toml` names it; then the old one is deleted. At any moment one of them is complete. A
@@ -15,6 +15,7 @@ use super::{
     spray_path::{SprayPath, SprayPathError},
     store::LibraryFolder,
     stored_part::read_spray_path,
+    surface_zones::SurfaceZones,
 };
 use files::{disk, replace_file, sync_folder};
 
@@ -40,6 +41,29 @@ impl LibraryFolder {
 
     /// Sets the side that a part is painted from.
     pub fn set_side(&self, name: &PartName, side: Side) -> Result<(), LibraryError> {
+        let side = Some(side);
+        self.change_meta(name, |meta| PartMeta { side, ..meta })
+    }
+
+    /// Sets how the surface of a part is checked; `None` for not at all.
+    pub fn set_surface(
+        &self,
+        name: &PartName,
+        surface: Option<SurfaceZones>,
+    ) -> Result<(), LibraryError> {
+        if let Some(found) = surface.as_ref().and_then(SurfaceZones::problem) {
+            let name = name.clone();
+            return Err(LibraryError::BadZones { name, found });
+        }
+        self.change_meta(name, |meta| PartMeta { surface, ..meta })
+    }
+
+    /// Replaces the `part.toml` of a part.
+    fn change_meta(
+        &self,
+        name: &PartName,
+        change: impl FnOnce(PartMeta) -> PartMeta,
+    ) -> Result<(), LibraryError> {
         self.entry(name.as_str())?;
         self.writing(|| {
             self.finish_interrupted_write()?;
@@ -47,8 +71,7 @@ impl LibraryFolder {
                 Ok((_, meta)) => meta,
                 Err(error) => return Ok(Err(error)),
             };
-            let side = Some(side);
-            rewrite_meta(&self.path().join(name.as_str()), &PartMeta { side, ..meta })?;
+            rewrite_meta(&self.path().join(name.as_str()), &change(meta))?;
             Ok(Ok(()))
         })?
     }
@@ -231,6 +254,30 @@ mod tests {
                 library.rename(&name("fender"), &words).map(|_| ())
             },
         );
+    }
+
+    #[test]
+    fn zones_are_stored_with_their_part_and_bad_ones_change_nothing() {
+        let (_folder, library) = library();
+        let fender = name("fender");
+        let params = stages::reference::ReferenceParams::default();
+        let load = || library.load(&params).expect("loaded");
+        let mut zones = SurfaceZones {
+            check: true,
+            ..SurfaceZones::default()
+        };
+        zones.rest().tolerance_mm = Some(2.0);
+        let store = |zones: &SurfaceZones| library.set_surface(&fender, Some(zones.clone()));
+        store(&zones).expect("stored");
+        let mut bad = zones.clone();
+        bad.rest().scrap_mm = Some(0.5);
+        assert!(matches!(store(&bad), Err(LibraryError::BadZones { .. })));
+        let loaded = load();
+        assert!(loaded.problems.is_empty(), "{:?}", loaded.problems);
+        assert_eq!(loaded.library.surface_zones.len(), 1);
+        assert_eq!(loaded.library.surface_zones.get("fender"), Some(&zones));
+        library.set_surface(&fender, None).expect("removed");
+        assert!(load().library.surface_zones.is_empty());
     }
 
     #[test]

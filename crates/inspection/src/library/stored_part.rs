@@ -12,6 +12,7 @@ use super::{
     part::{FileCheck, PartMeta, SCHEMA_VERSION, StoredSignature},
     problem::{EntryError, EntryIssue, EntryProblem, EntryWarning, MAX_POINTS},
     spray_path::{MAX_BYTES, SprayPath, SprayPathError},
+    surface_zones::SurfaceZones,
 };
 use files::{
     FileContent, FileError, open_bytes, open_regular, parse_toml, read_bytes, read_picture,
@@ -118,6 +119,9 @@ fn read_meta(entry: &Entry) -> Result<PartMeta, EntryError> {
         found: toml_problem(&text, &error),
     };
     let meta: PartMeta = parse_toml(Path::new(META), &text, SCHEMA_VERSION, bad)?;
+    if let Some(found) = meta.surface.as_ref().and_then(SurfaceZones::problem) {
+        return Err(EntryError::BadMeta { found });
+    }
     if meta.name.as_str() == entry.name {
         Ok(meta)
     } else {

@@ -695,6 +695,7 @@ fn of_object(object: ObjectKind) -> Library {
     let enrolled = enrol_surface(&seen, 1, &about, &EnrolParams::default());
     Library {
         references: vec![enrolled.expect("a part").reference],
+        ..Library::default()
     }
 }
 

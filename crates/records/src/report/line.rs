@@ -3,6 +3,7 @@
 use jiff::Timestamp;
 use serde::Serialize;
 
+use super::surface_line::SurfaceLine;
 use crate::history::Traceability;
 use geometry::rigid::row_major;
 use inspection::pipeline::{
@@ -89,6 +90,9 @@ struct PartLine<'a> {
     /// Why a robot may not act on the pose although the cell is calibrated and the part was accepted.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     robot_doubts: Vec<&'static str>,
+    /// What its surface is like, if it was checked.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    surface: Option<SurfaceLine>,
 }
 
 /// Additional fields for a frame of which is known what should hang there.
@@ -348,6 +352,7 @@ impl<'a> InspectionLine<'a> {
                 pose,
                 ranking: ranking.collect(),
                 timings_ms: Some(TimingsLine::of(&inspection.timings)),
+                surface: inspection.surface.as_deref().map(SurfaceLine::of),
                 ..PartLine::default()
             },
             ..Self::default()

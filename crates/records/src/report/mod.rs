@@ -25,6 +25,7 @@ pub mod pose_report;
 mod problem;
 #[cfg(feature = "cli")]
 mod runner_up_picture;
+mod surface_line;
 mod text_table;
 
 #[cfg(feature = "cli")]
@@ -42,5 +43,6 @@ pub use self::{
     evaluation_report::EvaluationReport,
     line::{CaptureLine, InspectionLine, SCHEMA, ScanLine, TimingsLine},
     problem::{ProblemReport, compared_entries},
+    surface_line::{MeasuredLine, RegionLine, SurfaceLine},
     text_table::TextTable,
 };

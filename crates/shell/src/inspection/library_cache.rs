@@ -120,6 +120,7 @@ impl LoadedLibrary {
         });
         let library = Arc::new(Library {
             references: references.collect::<Option<_>>()?,
+            surface_zones: self.library.surface_zones.clone(),
         });
         *lock() = Some((params, Arc::clone(&library)));
         Some(library)

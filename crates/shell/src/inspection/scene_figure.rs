@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use glam::Vec3;
-use nalgebra::{Isometry3, Point3};
+use nalgebra::{Isometry3, Point3, Vector3};
 
 use crate::inspection::scan::ScanFigure;
 use geometry::{rigid::RigidTransform, units::Metres};
@@ -12,6 +12,7 @@ use inspection::pipeline::Inspection;
 use robot::spray::{BandStatus, CarriedPath};
 use stages::{
     contour::lift_border,
+    deviation::{Deviation, DeviationRegion, PatchDeviation},
     pose::PoseEstimate,
     reference::{Reference, ReferenceView},
     scene::SceneCloud,
@@ -40,6 +41,17 @@ pub struct SceneFigure {
     pub nozzles: Option<[NozzleFigure; 2]>,
     /// The part's stored spray path, if there is one.
     pub spray: Option<SprayFigure>,
+    /// The regions of the part's surface that deviate, in the order of its check.
+    pub regions: Vec<RegionFigure>,
+}
+
+/// A region of the surface that deviates, with a ring around it.
+#[derive(Clone, Debug)]
+pub struct RegionFigure {
+    /// The ring.
+    pub lines: LineSet,
+    /// Its uppermost point, for the text, metres.
+    pub top: Vec3,
 }
 
 /// A spray path carried to the found pose.
@@ -131,7 +143,55 @@ impl SceneFigure {
                 .filter(|_| spray.is_none())
                 .map(|found| [&found.middle, &found.worst].map(NozzleFigure::of)),
             spray: spray.and_then(SprayFigure::of),
+            regions: regions(inspection),
             points,
+        }
+    }
+}
+
+fn regions(inspection: &Inspection) -> Vec<RegionFigure> {
+    let check = inspection.surface.as_ref();
+    let measured = check.and_then(|check| Some((check, check.deviation.as_ref()?)));
+    let Some((check, deviation)) = measured else {
+        return Vec::new();
+    };
+    let regions = check.regions.iter();
+    let figures = regions.map(|judged| RegionFigure::of(deviation, &judged.region));
+    figures.collect()
+}
+
+impl RegionFigure {
+    fn of(deviation: &Deviation, region: &DeviationRegion) -> Self {
+        /// The ring is larger than the region by this factor, and has at least this radius, metres.
+        const AROUND: f64 = 1.3;
+        const LEAST_RADIUS: f64 = 0.012;
+        /// Before the surface, so that its points do not cover it, metres.
+        const BEFORE: f64 = 0.003;
+        const NUM_CORNERS: usize = 32;
+        let camera_from_part = deviation.part_from_camera.inverse();
+        let centre = camera_from_part * region.centre;
+        let distance =
+            |patch: &&PatchDeviation| (patch.at.cast::<f64>() - region.centre).norm_squared();
+        let nearest = (deviation.patches.iter())
+            .min_by(|a, b| distance(a).total_cmp(&distance(b)))
+            .map_or_else(Vector3::zeros, |patch| patch.normal.cast::<f64>());
+        let normal = (camera_from_part * nearest)
+            .try_normalize(0.5)
+            .unwrap_or_else(|| -Vector3::z());
+        let radius = (AROUND * (region.area_m2 / std::f64::consts::PI).sqrt()).max(LEAST_RADIUS);
+        let axis = vec3(&normal.into());
+        let (across, up) = axis.any_orthonormal_pair();
+        let middle = vec3(&(centre + normal * BEFORE));
+        let corners = (0..=NUM_CORNERS).map(|corner| {
+            let turn = std::f32::consts::TAU * corner as f32 / NUM_CORNERS as f32;
+            middle + (across * turn.cos() + up * turn.sin()) * radius as f32
+        });
+        let corners: Vec<Vec3> = corners.collect();
+        // The camera's y points down.
+        let top = corners.iter().copied().min_by(|a, b| a.y.total_cmp(&b.y));
+        Self {
+            top: top.unwrap_or(middle),
+            lines: LineSet::new(vec![Line::new(corners, Role::AxisX).with_width(2.5)]),
         }
     }
 }

@@ -6,13 +6,13 @@ use egui::Color32;
 
 use super::{
     frame_parts::numbered,
-    headline::{Headline, HeadlineState},
+    headline::{Headline, HeadlineState, surface_complaint},
     hold::{Hold, inspect_current},
     operator_words::{in_short, next_step, why_not},
 };
 use crate::workspaces::inspect::frame_parts::FrameExpectation;
 use capture::SourceSpec;
-use inspection::pipeline::{Unrecognisable, Verdict};
+use inspection::pipeline::{SurfaceVerdict, Unrecognisable, Verdict};
 use records::history::StoredVerdict;
 use shell::{
     inspection::{inspected::Inspected, source::Origin},
@@ -322,6 +322,15 @@ impl Banner {
             return Self::new(Tone::NotOk, title, text!("operator-reported-wrong"), next);
         }
         if state.is_accepted() {
+            let surface = &inspected.inspection.surface;
+            let verdict = surface.as_ref().map(|check| check.verdict);
+            if let Some((reason, advice)) = surface_complaint(&inspected.inspection) {
+                let tone = match verdict {
+                    Some(SurfaceVerdict::Rework | SurfaceVerdict::Scrap) => Tone::NotOk,
+                    Some(SurfaceVerdict::Ok | SurfaceVerdict::NotJudged) | None => Tone::Recognised,
+                };
+                return Self::new(tone, title, reason, advice);
+            }
             if let Some(hold) = Hold::of(session, inspected, UserRole::Operator) {
                 return Self::new(Tone::Recognised, title, hold.reason, hold.advice);
             }
@@ -385,7 +394,7 @@ mod tests {
     use super::*;
     use geometry::rigid::RigidTransform;
     use inspection::pipeline::{
-        Rejection,
+        Rejection, SurfaceCheck,
         live::{InspectionRate, LiveVerdict, MotionState},
     };
     use robot::RobotFrame;
@@ -472,6 +481,36 @@ mod tests {
         // It may show what hung there days ago.
         let next = banner(file, false).next;
         assert!(next.starts_with("From a file"), "{next}");
+    }
+
+    #[test]
+    fn a_part_whose_surface_is_not_good_is_not_ok_and_starts_no_robot() {
+        let banner = |verdict| {
+            let mut inspected = inspected_cell(CellChoice::InTurn, 1);
+            inspected.set_origin(camera());
+            inspected.inspection.surface = Some(Arc::new(SurfaceCheck {
+                verdict,
+                not_judged: None,
+                deviation: None,
+                regions: Vec::new(),
+            }));
+            Banner::of(&showing(inspected, false))
+        };
+        let good = banner(SurfaceVerdict::Ok);
+        assert_eq!((good.tone, &*good.next), (Tone::Ok, "Start the robot"));
+        for (verdict, tone, reason) in [
+            (
+                SurfaceVerdict::NotJudged,
+                Tone::Recognised,
+                "Surface: not judged",
+            ),
+            (SurfaceVerdict::Rework, Tone::NotOk, "Surface: rework"),
+            (SurfaceVerdict::Scrap, Tone::NotOk, "Surface: scrap"),
+        ] {
+            let bad = banner(verdict);
+            assert_eq!((bad.tone, &*bad.reason), (tone, reason));
+            assert_ne!(bad.next, "Start the robot");
+        }
     }
 
     #[test]

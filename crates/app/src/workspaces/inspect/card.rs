@@ -13,6 +13,7 @@ use crate::{
         hold::{self, Hold},
         robot_numbers,
         state::{InspectAction, InspectFile},
+        surface,
     },
 };
 use inspection::pipeline::{Rejection, Unrecognisable, Verdict};
@@ -118,6 +119,7 @@ pub(super) fn ui(
             if shows_nozzle || inspected.spray.is_some() {
                 stand_off(ui, inspected, session.units);
             }
+            surface::ui(ui, inspection, session.units);
             robot_numbers::ui(ui, inspected, session, actions);
         }
         if let Some(scan) = &inspected.scan {

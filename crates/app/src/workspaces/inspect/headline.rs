@@ -4,7 +4,9 @@ use egui::{Color32, FontId, RichText, Ui};
 
 use super::hold::Hold;
 use crate::shared::truth_title;
-use inspection::pipeline::{Identification, Verdict, live::MotionState};
+use inspection::pipeline::{
+    Identification, Inspection, SurfaceVerdict, Verdict, live::MotionState,
+};
 use records::history::StoredVerdict;
 use shell::{inspection::inspected::Inspected, language::accepted_or_not, session::Session};
 use station::Doubt;
@@ -130,18 +132,20 @@ impl Headline {
         let nearest = inspected.part_title().unwrap_or_default().to_owned();
         let Some(reason) = rejected else {
             let hold = Hold::of(session, inspected, session.role);
-            let state = match hold {
-                None => HeadlineState::Go,
-                Some(_) => HeadlineState::Recognised,
+            let surface = surface_complaint(&inspected.inspection);
+            let state = match (&hold, &surface) {
+                (None, None) => HeadlineState::Go,
+                (Some(_), _) | (_, Some(_)) => HeadlineState::Recognised,
             };
             // The card already says above why it is old.
             let is_said =
                 session.is_old() || session.shown.as_ref().is_some_and(|shown| shown.is_past);
-            let complaint = hold.filter(|_| !is_said);
+            let hold = hold.filter(|_| !is_said);
+            let hold = hold.map(|hold| (hold.reason, hold.advice));
             return Self {
                 title: nearest,
                 state,
-                complaint: complaint.map(|hold| (hold.reason, hold.advice)),
+                complaint: surface.or(hold),
                 ..Self::default()
             };
         };
@@ -199,6 +203,18 @@ impl Headline {
             ..Self::default()
         }
     }
+}
+
+/// What is wrong with the surface of an accepted part, and what to do; `None` if nothing is, or if it was not checked.
+pub(super) fn surface_complaint(inspection: &Inspection) -> Option<(String, String)> {
+    let check = inspection.surface.as_ref()?;
+    let advice = match check.verdict {
+        SurfaceVerdict::Ok => return None,
+        SurfaceVerdict::NotJudged => check.not_judged.as_ref().map_or_else(String::new, advised),
+        SurfaceVerdict::Rework | SurfaceVerdict::Scrap => text!("inspect-surface-advice"),
+    };
+    let verdict = described(&check.verdict);
+    Some((text!("inspect-surface-is", verdict = verdict), advice))
 }
 
 /// Draws the headline, legible from three metres.

@@ -14,6 +14,7 @@ mod readout;
 mod robot_numbers;
 mod state;
 mod strip;
+mod surface;
 #[cfg(test)]
 mod tests;
 mod view;

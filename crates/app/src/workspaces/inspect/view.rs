@@ -9,6 +9,7 @@ use super::{
     frame_parts::numbered,
     headline::{Headline, HeadlineState},
     state::{InspectState, ViewPart},
+    surface::region_words,
 };
 use crate::{
     shots::{Overlay, POINT_SIZE},
@@ -332,6 +333,9 @@ impl SceneView {
                 keys.push((drawn(role, false), part.title()));
             }
         }
+        if !figure.regions.is_empty() {
+            keys.push((drawn(Role::AxisX, false), text!("inspect-surface-region")));
+        }
         if !rack_of(session, inspected).volume.is_empty() {
             keys.push((drawn(Role::Rest, false), text!("rack-volume")));
         }
@@ -433,6 +437,15 @@ impl SceneView {
                     }
                 }
             }
+        }
+        let checked = inspected.inspection.surface.as_ref();
+        let regions = checked.iter().flat_map(|check| &check.regions);
+        for (region, drawn) in regions.zip(&figure.regions) {
+            lines.push(drawn.lines.clone());
+            labels.push(TextLabel {
+                at: drawn.top,
+                text: region_words(region, units),
+            });
         }
         let (boxes, places) = rack_lines(&by.rack);
         if !boxes.lines().is_empty() {

@@ -46,6 +46,7 @@ fn a_captured_part_is_recognised_in_the_scene_it_came_from() {
     assert_eq!(enrolled.part.meta.coverage, Coverage::OneSide);
     let library = crate::library::Library {
         references: vec![enrolled.reference],
+        ..crate::library::Library::default()
     };
     let inspection = pipeline::run(&scene, &library, &Recipe::default(), &Unwatched).expect("run");
     assert!(

@@ -15,7 +15,10 @@ use nalgebra::Point3;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::line::{TimingsLine, status_of};
+use super::{
+    line::{TimingsLine, status_of},
+    surface_line::SurfaceLine,
+};
 use crate::history::Traceability;
 use inspection::pipeline::{Identification, Inspection, NamedRecipe, Recipe, RecipeBlock};
 use robot::{Convention, RobotFrame};
@@ -93,6 +96,9 @@ pub struct PoseReport {
     pub robot: RobotBlock,
     /// The nozzle's stand-off if its path ran as it was taught; null unless the part was accepted and has a surface.
     pub stand_off: Option<StandOffBlock>,
+    /// The check of the part's surface, which the page shows; other programs read it from the line of JSON.
+    #[serde(skip)]
+    pub surface: Option<SurfaceLine>,
     /// How long each stage took, milliseconds.
     pub timings_ms: TimingsLine,
     /// The parameters.
@@ -217,6 +223,7 @@ impl PoseReport {
             stand_off: stand_off
                 .filter(|_| verdict.accepted)
                 .map(|found| StandOffBlock::of(found, &subject.recipe.stand_off)),
+            surface: inspection.surface.as_deref().map(SurfaceLine::of),
             verdict,
             ranking: inspection
                 .ranking

@@ -4,11 +4,16 @@ use super::{
     Anchor, Area, BLACK, BODY, GREY, HEADING, MARGIN, PAGE, PALE, PdfPictures, RED, RULE, SMALL,
     STRONG, Sheet, WIDTH, Weight, style, typeset,
 };
-use crate::report::pose_report::{
-    FitBlock, MiddleBlock, PoseBlock, PoseReport, SeenBy, StandOffBlock,
+use crate::report::{
+    pose_report::{FitBlock, MiddleBlock, PoseBlock, PoseReport, SeenBy, StandOffBlock},
+    surface_line::SurfaceLine,
 };
 
 const LINE: f32 = 12.0;
+/// Rows that the stand-off takes, with its heading and note.
+const STAND_OFF_ROWS: usize = 7;
+/// Regions of a surface that are listed; the line of JSON has all.
+const NUM_REGIONS: usize = 4;
 
 /// Draws the picture, and the figures of the pose below it.
 pub(super) fn column(
@@ -28,7 +33,12 @@ pub(super) fn column(
         rows.middle(middle);
     }
     rows.fit(&pose.fit, pose);
-    if let Some(found) = &report.stand_off {
+    if let Some(surface) = &report.surface {
+        rows.surface(surface);
+    }
+    // Below a checked surface it may have no room.
+    let has_room = report.surface.is_none() || rows.num_left() >= STAND_OFF_ROWS;
+    if let Some(found) = report.stand_off.as_ref().filter(|_| has_room) {
         rows.stand_off(found);
     }
 }
@@ -162,6 +172,41 @@ impl Rows<'_, '_> {
         }
         let stopped = fit.stopped.replace('_', " ");
         self.row("found by", &format!("{}, {stopped}", fit.method));
+        self.y += 8.0;
+    }
+
+    /// Number of rows for which there is room below.
+    fn num_left(&self) -> usize {
+        let left = self.area.top + self.area.height - self.y;
+        (left / LINE).max(0.0) as usize
+    }
+
+    fn surface(&mut self, surface: &SurfaceLine) {
+        self.heading("Surface");
+        self.row("verdict", &surface.verdict.to_string());
+        for region in surface.regions.iter().take(NUM_REGIONS) {
+            let off = region.deviation_m.map_or_else(String::new, |metres| {
+                format!("{:+.1} mm, ", 1000.0 * metres)
+            });
+            let name = format!("{}: {}", region.kind, region.verdict);
+            let area = format!("{off}{:.1} cm²", 1e4 * region.area_m2);
+            self.row(&name, &typeset(&area));
+        }
+        let num_more = surface.regions.len().saturating_sub(NUM_REGIONS);
+        if num_more > 0 {
+            self.row("more regions", &num_more.to_string());
+        }
+        if let Some(measured) = &surface.measured {
+            self.row("frames averaged", &measured.frames.to_string());
+            self.row("noise", &format!("{:.2} mm", 1000.0 * measured.noise_m));
+            if let Some([width, depth]) = measured.smallest_m.get(1) {
+                let name = format!("found in 95 %: dents {:.0} mm wide", 1000.0 * width);
+                self.row(&name, &format!("from {:.1} mm", 1000.0 * depth));
+            }
+        }
+        if let Some(reason) = &surface.reason {
+            self.note(reason);
+        }
         self.y += 8.0;
     }
 
