@@ -97,7 +97,7 @@ fn a_surface_is_averaged_over_frames_of_a_standing_part_and_only_if_asked_for() 
 /// Writes a depth image of two parts: at each pixel the nearer reading of two frames with one of them each.
 fn two_parts(place: &Workplace, merged: &str) {
     place.with_made(&["two parts", merged], |place| {
-        make_two_parts(place, merged)
+        make_two_parts(place, merged);
     });
 }
 

@@ -331,18 +331,14 @@ fn parts_of_a_booth_are_named_and_placed_where_the_robot_says() {
 
 #[test]
 fn hardly_a_good_part_of_a_booth_has_a_dent() {
-    let Some(data) = data_folder() else { return };
-    let booth = data.join("booth");
-    let truth = Truth::read(&booth);
-    let library = library(&booth, &truth);
-    let files: Vec<&String> = truth.frames.keys().collect();
-    let measured = map_each(files.len(), num_cores(), |number| {
-        let scene = scene(&booth.join(files[number]));
-        let found = run(&scene, &library, &Recipe::default(), &Unwatched).expect("not cancelled");
-        measure_surface(&found, &library, &[&scene], &DeviationParams::default())
+    let Some(booth) = Booth::read() else { return };
+    let frames: Vec<_> = booth.inspected.iter().collect();
+    let measured = map_each(frames.len(), num_cores(), |i| {
+        let (_, (scene, found)) = frames[i];
+        measure_surface(found, &booth.library, &[scene], &DeviationParams::default())
     });
     let (mut num_measured, mut num_with_regions) = (0, 0);
-    for (file, measured) in files.iter().zip(measured) {
+    for ((file, _), measured) in frames.iter().zip(measured) {
         match measured {
             None => println!("{file}: not accepted"),
             Some(Err(error)) => println!("{file}: {error}"),

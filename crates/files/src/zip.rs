@@ -117,7 +117,7 @@ mod tests {
     fn files_come_back_from_an_archive() {
         let files = [
             ("read-me.txt", &b"Teil"[..]),
-            ("library/t\u{fc}r/cloud.ply", &[7; 70_000][..]),
+            ("library/t\u{fc}r/cloud.ply", &vec![7; 70_000][..]),
             ("empty", &b""[..]),
         ];
         let files = files.map(|(path, content)| (path.to_owned(), content.to_vec()));

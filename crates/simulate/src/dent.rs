@@ -102,7 +102,7 @@ impl Dent {
     /// True for an edge that is to be split: longer than is fine enough, and no further from the dent than its own length. Of
     /// a triangle that the dent touches, at least the longest edge is that near.
     fn is_too_long(&self, [a, b]: [Point3<f32>; 2]) -> bool {
-        let [a, b] = [a, b].map(|p| p.cast::<f64>());
+        let [a, b] = [a, b].map(Point3::cast::<f64>);
         let length = (b - a).norm();
         let distance = (nalgebra::center(&a, &b) - self.centre).norm();
         length > FINE_EDGE_SHARE * self.width.0

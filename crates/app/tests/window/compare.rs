@@ -691,7 +691,7 @@ fn it_is_drawn_in_both_sizes_and_colours() {
             press(&mut harness, "Scaling: one core against several");
             press(&mut harness, "Measure scaling");
             harness.get_by_label("Measure scaling").scroll_to_me();
-            let_pass(harness, 30);
+            let_pass(&mut harness, 30);
             shot(&mut harness, "scaling");
         }
         act(&mut harness, Action::SwitchTheme);

@@ -36,7 +36,7 @@ use super::{
     robot::save_calibration,
     set_up::{
         SMALL, USUAL, WindowHarness, act, history_of, is_recognised, open, open_with,
-        plain_options, settle, wait_for, wait_until,
+        plain_options, press, settle, wait_for, wait_until,
     },
 };
 

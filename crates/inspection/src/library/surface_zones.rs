@@ -146,13 +146,14 @@ mod tests {
 
     #[test]
     fn zones_are_read_as_they_were_written_and_bad_ones_are_named() {
+        type Change = fn(&mut SurfaceZone);
         let text = toml::to_string(&zones()).expect("written");
         assert_eq!(
             toml::from_str::<SurfaceZones>(&text).expect("read"),
             zones()
         );
         assert_eq!(zones().problem(), None);
-        let changes: [(fn(&mut SurfaceZone), &str); 4] = [
+        let changes: [(Change, &str); 4] = [
             (|zone| zone.tolerance_mm = Some(f64::NAN), "no length"),
             (|zone| zone.tolerance_mm = Some(0.0), "no length"),
             (|zone| zone.scrap_mm = Some(1.0), "below its tolerance"),

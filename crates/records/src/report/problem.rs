@@ -85,7 +85,8 @@ impl ProblemReport<'_> {
     /// How to inspect the scene as the user did.
     fn read_me(&self, files: &[(String, Vec<u8>)], not_enclosed: &[String]) -> String {
         let mut text = "A problem report of Partsight.\n".to_owned();
-        let is_scene = |path: &str| path.starts_with("scene/scene.") && !path.ends_with(".json");
+        let is_json = |path: &str| Path::new(path).extension().is_some_and(|end| end == "json");
+        let is_scene = |path: &str| path.starts_with("scene/scene.") && !is_json(path);
         let is_cell = |path: &str| path.starts_with("scene/empty-cell");
         let path_of = |is_it: &dyn Fn(&str) -> bool| {
             let mut paths = files.iter().map(|(path, _)| path.as_str());

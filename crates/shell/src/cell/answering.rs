@@ -419,16 +419,15 @@ fn state(ui: &mut Ui, robot: &RobotCell, session: &Session) {
     let Some((sign, what)) = answering.words(session) else {
         return;
     };
-    match answering.problem() {
-        Some(problem) => error_row(ui, Mark::Bad, problem),
-        None => {
-            // Without a calibration, the advice is above.
-            let advice = match &session.robot {
-                Some(_) => answering.advice(session),
-                None => String::new(),
-            };
-            error_row(ui, sign, &UserError { what, advice });
-        }
+    if let Some(problem) = answering.problem() {
+        error_row(ui, Mark::Bad, problem);
+    } else {
+        // Without a calibration, the advice is above.
+        let advice = match &session.robot {
+            Some(_) => answering.advice(session),
+            None => String::new(),
+        };
+        error_row(ui, sign, &UserError { what, advice });
     }
     if let Some(status) = answering.status() {
         figures(ui, status);

@@ -121,7 +121,8 @@ impl LinkedViews {
         let known = self.shows.as_ref();
         let is_new = known.is_none_or(|known| !Arc::ptr_eq(known, pair));
         let is_resized = std::mem::replace(&mut self.size, size) != size;
-        if !is_new && !(is_resized && self.camera.is_fitted()) {
+        let is_to_fit = is_new || is_resized && self.camera.is_fitted();
+        if !is_to_fit {
             return;
         }
         if is_new {

@@ -26,8 +26,10 @@ pub(super) fn ui(ui: &mut Ui, inspection: &Inspection, units: UnitSystem) {
     for judged in &check.regions {
         let area = format!("{:.1} cm²", 1e4 * judged.region.area_m2);
         let zone = judged.zone.iter().filter(|zone| !zone.is_empty());
-        let of_zone: String = zone.map(|zone| format!(" · {zone}")).collect();
-        let value = format!("{area}{of_zone} · {}", described(&judged.verdict));
+        let mut words = vec![area];
+        words.extend(zone.map(ToString::to_string));
+        words.push(described(&judged.verdict));
+        let value = words.join(" · ");
         row(ui, &region_words(judged, units), &value);
     }
     if let Some(why) = &check.not_judged {

@@ -127,7 +127,8 @@ impl Servoing {
 
 fn write_ended(moves: &mut SingleMoves, library: &LoadedLibrary, history: &HistoryBuffer) {
     for mut record in moves.take_ended() {
-        record.run.title = library.shown.title_of(&record.run.part).to_owned();
+        let title = library.shown.title_of(&record.run.part);
+        title.clone_into(&mut record.run.title);
         history.add_servo_run(record, Instant::now());
     }
 }
