@@ -163,6 +163,7 @@ fn a_trial_has_the_delay_the_calibration_and_the_play_that_were_asked_for() {
         },
         play: Radians::from_degrees(0.01),
         seed: 2,
+        ..SimulatedTrial::default()
     };
     let (mut delays, mut tasks) = (Vec::new(), Vec::new());
     let params = ServoParams::default();
