@@ -1,7 +1,7 @@
 //! The camera of a simulated robot that runs as a program of its own: its frames and its time, over TCP.
 //!
 //! ```text
-//! frame          ─►  a head, and a picture if one was delivered since the last request
+//! frame          ─►  a head, and a picture if there is a newer one than this connection got
 //! time           ─►  a head; from now on the robot waits until each frame has been inspected
 //! inspected 12   ─►  a head, whose time is when frame 12 was due
 //! ```
