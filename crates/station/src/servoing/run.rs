@@ -290,6 +290,9 @@ pub fn servo_real(
     let stream = robot.address.stream(robot.setup.placed.as_ref())?;
     let mut drive = job.drive(stream, &task, &params, fence)?;
     let mut link = RobotLink::open(&robot.address)?;
+    if let SourceSpec::SimulatedRobot(camera) = robot.source {
+        link.expect_simulated(camera.ip());
+    }
     on_news(Some(ServoNews::Begins {
         task: Arc::new(task.clone()),
         robot: robot.address.at(link.address()),
