@@ -328,6 +328,17 @@ fn a_robot_that_servoes_is_moved_within_the_limits_of_the_page_servo() {
     let way = x.hypot(y).hypot(z);
     assert!(way > 1.0 && way < 100.01, "{reply:?}");
 
+    wait_for(&mut harness, |window| {
+        let history = window.workspace::<HistoryWorkspace>();
+        history.is_some_and(|history| history.state.is_settled())
+    });
+    report(&mut harness, &Truth::Part("grille".into()));
+    let reply = servo("");
+    let told = [&*reply[1], &*reply[18]];
+    assert_eq!(told, ["stay", "reported_wrong"], "{reply:?}");
+    assert_eq!(reply[12], "", "{reply:?}");
+    report(&mut harness, &Truth::Part("fender".into()));
+
     // Another work volume counts at once, and ends the run.
     let mut settings = harness.state().state().session.servo.clone();
     settings.volume = Some(OrientedBox {
@@ -355,7 +366,7 @@ fn a_robot_that_servoes_is_moved_within_the_limits_of_the_page_servo() {
         panic!("the first run alone has ended");
     };
     let stopped = run.stopped.as_ref().map(servo::StopReason::kind);
-    assert_eq!((&*run.part, stopped), ("fender", Some("robot_stopped")));
+    assert_eq!((&*run.part, stopped), ("fender", Some("another_part")));
 
     toggle(&mut harness);
     harness.run_steps(4);
