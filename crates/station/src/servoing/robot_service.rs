@@ -13,7 +13,7 @@ use std::{
         atomic::{AtomicBool, Ordering},
     },
     thread::{self, ScopedJoinHandle},
-    time::Duration,
+    time::{Duration, Instant},
 };
 
 use super::{
@@ -66,6 +66,8 @@ const MAX_REQUEST_BYTES: usize = 64;
 const MAX_PENDING: usize = 100;
 /// How often it looks whether the robot's program has ended.
 const POLL_INTERVAL: Duration = Duration::from_millis(20);
+/// How long connections go on once the program has ended: who drives it learns of that later, and would take the camera for lost.
+const TIME_AT_END: Duration = Duration::from_secs(3);
 /// How long a connection may take to take what it asked for.
 const WRITE_TIMEOUT: Duration = Duration::from_secs(5);
 
@@ -86,8 +88,15 @@ pub fn serve_robot(
     };
     thread::scope(|scope| {
         let mut connections = Vec::new();
-        while !robot.has_ended() && !is_ending() {
+        let mut ended = None;
+        while !is_ending() {
             connections.retain(|thread: &ScopedJoinHandle<'_, ()>| !thread.is_finished());
+            if robot.has_ended() {
+                let ended = ended.get_or_insert_with(Instant::now);
+                if connections.is_empty() || ended.elapsed() > TIME_AT_END {
+                    break;
+                }
+            }
             match camera.accept() {
                 Ok((stream, _)) if connections.len() < MAX_CONNECTIONS => {
                     let frames_of = &frames_of;
