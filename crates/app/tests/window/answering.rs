@@ -319,8 +319,9 @@ fn a_robot_that_servoes_is_moved_within_the_limits_of_the_page_servo() {
     let index = library.and_then(|library| library.index_of("fender"));
     let number = index.expect("enrolled") + 1;
     let mut robot = Robot::connect(at);
-    let mut servo = |start: &str| robot.ask(&format!("SERVO {start}{number} 900 0 1100 10 20 30"));
-    let reply = servo("START ");
+    let mut servo = |start: &str, pose: &str| robot.ask(&format!("SERVO {start}{number} {pose}"));
+    let here = "900 0 1100 10 20 30";
+    let reply = servo("START ", here);
     let [verdict, part, flags] = [1, 6, 8].map(|field| reply[field].as_str());
     assert_eq!([verdict, part, flags], ["move", "fender", "5"], "{reply:?}");
     let sent = [12, 13, 14].map(|field| reply[field].parse::<f64>().expect("a number"));
@@ -333,7 +334,7 @@ fn a_robot_that_servoes_is_moved_within_the_limits_of_the_page_servo() {
         history.is_some_and(|history| history.state.is_settled())
     });
     report(&mut harness, &Truth::Part("grille".into()));
-    let reply = servo("");
+    let reply = servo("", &reply[12..18].join(" "));
     let told = [&*reply[1], &*reply[18]];
     assert_eq!(told, ["stay", "reported_wrong"], "{reply:?}");
     assert_eq!(reply[12], "", "{reply:?}");
@@ -354,7 +355,7 @@ fn a_robot_that_servoes_is_moved_within_the_limits_of_the_page_servo() {
         });
     set_up.expect("the window has this workspace");
     harness.run_steps(4);
-    let reply = servo("");
+    let reply = servo("", here);
     let reason = [&*reply[1], &*reply[18]];
     assert_eq!(reason, ["stay", "outside_volume"], "{reply:?}");
     let runs = harness
@@ -370,7 +371,7 @@ fn a_robot_that_servoes_is_moved_within_the_limits_of_the_page_servo() {
 
     toggle(&mut harness);
     harness.run_steps(4);
-    let reply = servo("START ");
+    let reply = servo("START ", here);
     assert_eq!(
         [&*reply[1], &*reply[18]],
         ["error", "camera_failed"],

@@ -520,23 +520,23 @@ impl AnsweringSession<'_> {
             at_most: FRAME_TIMEOUT,
             is_ending: &|| self.is_ending(),
         };
-        let mut is_reported = false;
+        let mut reported = None;
         let mut found = moves.answer(request, client, asked, parts, |prepared, asked, num| {
             let scene_of = |captured| self.scene_of(captured, &inputs);
             let mut frames = watch.looks(prepared, asked, num, scene_of)?;
             if let Some(actual) = self.reported_as(&source, &frames, &prepared.recipe) {
-                is_reported = true;
                 let another = StopReason::AnotherPart {
                     part: prepared.task.part.clone(),
                     other: actual.name().to_owned(),
                 };
+                reported = Some(another.kind());
                 for (_, seen) in &mut frames.looks {
                     *seen = Err(another.clone());
                 }
             }
             Ok(frames)
         });
-        if is_reported {
+        if reported.is_some_and(|kind| found.problem.reason == kind) {
             found.problem = Problem::reported_wrong();
         }
         self.servoing.keep(moves, inputs, source, loaded, history);
