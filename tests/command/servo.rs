@@ -229,6 +229,7 @@ fn a_robot_that_is_another_program_is_brought_to_its_target() {
     let lines = ran.lines();
     let end = lines.last().expect("lines");
     assert_eq!(end["arrived"], true, "{end}");
+    assert!(!ran.err.contains("no simulated robot"), "{}", ran.err);
     let status = robot.child.wait().expect("started");
     assert!(status.success(), "{status}");
     // What the robot knows, and the program that moved it does not.

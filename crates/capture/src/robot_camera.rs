@@ -1,17 +1,17 @@
 //! The camera of a simulated robot that runs as a program of its own: its frames and its time, over TCP.
 //!
 //! ```text
-//! frame          ─►  a head, and a picture if one was delivered since the last request
+//! frame          ─►  a head, and a picture if there is a newer one than this connection got
 //! time           ─►  a head; from now on the robot waits until each frame has been inspected
 //! inspected 12   ─►  a head, whose time is when frame 12 was due
 //! ```
 //!
 //! Requests and heads are lines; a head is JSON. A picture follows its head: its depths row by row, two bytes each, the low one
-//! first.
+//! first. Whatever the head says, the picture counts as simulated.
 
 use std::{
     fmt,
-    io::{self, BufRead, BufReader, Read as _, Write},
+    io::{self, BufRead, BufReader, Read, Write},
     net::{SocketAddr, TcpStream},
     thread,
     time::{Duration, Instant},
@@ -23,6 +23,7 @@ use super::{
     error::CaptureError,
     source::{Captured, DepthSource, Image, NextCapture},
 };
+use files::DepthCamera;
 use geometry::depth_frame::{DepthFrame, Intrinsics};
 
 /// What is asked of a simulated robot's camera.
@@ -78,8 +79,7 @@ struct Head {
 #[derive(Debug, Serialize, Deserialize)]
 struct Picture {
     number: u64,
-    metres_per_unit: f64,
-    intrinsics: Intrinsics,
+    camera: DepthCamera,
 }
 
 /// Longest line of a head.
@@ -92,8 +92,7 @@ impl RobotReply {
     pub fn write(&self, to: &mut impl Write) -> io::Result<()> {
         let picture = self.frame.as_ref().map(|(number, frame)| Picture {
             number: *number,
-            metres_per_unit: frame.metres_per_unit,
-            intrinsics: frame.intrinsics,
+            camera: DepthCamera::from_frame(frame),
         });
         let head = Head {
             at_ns: u64::try_from(self.at.as_nanos()).unwrap_or(u64::MAX),
@@ -108,43 +107,17 @@ impl RobotReply {
 
     /// Reads one.
     pub fn read(from: &mut impl BufRead) -> io::Result<Self> {
-        let wrong = |what: &str| io::Error::new(io::ErrorKind::InvalidData, what);
         let mut line = String::new();
         from.by_ref().take(MAX_HEAD_BYTES).read_line(&mut line)?;
         if line.is_empty() {
             return Err(io::ErrorKind::UnexpectedEof.into());
         }
         let head: Head = serde_json::from_str(&line)?;
-        let frame = match head.picture {
-            None => None,
-            Some(picture) => {
-                let Intrinsics {
-                    width, height, fx, ..
-                } = picture.intrinsics;
-                let num_pixels = width.checked_mul(height);
-                let num_pixels = num_pixels.filter(|num| (1..=MAX_PIXELS).contains(num));
-                let num_pixels = num_pixels.ok_or_else(|| wrong("a picture of no usual size"))?;
-                let is_positive = |number: f64| number > 0.0 && number.is_finite();
-                if ![picture.metres_per_unit, fx, picture.intrinsics.fy]
-                    .into_iter()
-                    .all(is_positive)
-                {
-                    return Err(wrong("a picture of no camera"));
-                }
-                let mut bytes = vec![0; 2 * num_pixels];
-                from.read_exact(&mut bytes)?;
-                let depths = bytes.chunks_exact(2);
-                let frame = DepthFrame {
-                    intrinsics: picture.intrinsics,
-                    metres_per_unit: picture.metres_per_unit,
-                    depth: depths
-                        .map(|pair| u16::from_le_bytes([pair[0], pair[1]]))
-                        .collect(),
-                    is_simulated: true,
-                };
-                Some((picture.number, frame))
-            }
-        };
+        let frame = head.picture.map(|picture| {
+            let frame = depths_after(picture.camera, from)?;
+            Ok::<_, io::Error>((picture.number, frame))
+        });
+        let frame = frame.transpose()?;
         Ok(Self {
             at: Duration::from_nanos(head.at_ns),
             frame,
@@ -152,15 +125,54 @@ impl RobotReply {
     }
 }
 
-/// How long the robot may take to accept the connection, and to answer.
+/// Reads the depths of a picture of this camera, once they are known to have a usual number.
+fn depths_after(camera: DepthCamera, from: &mut impl Read) -> io::Result<DepthFrame> {
+    let wrong = |what: String| io::Error::new(io::ErrorKind::InvalidData, what);
+    let Intrinsics { width, height, .. } = camera.intrinsics;
+    let num_pixels = width.checked_mul(height);
+    let num_pixels = num_pixels.filter(|num| (1..=MAX_PIXELS).contains(num));
+    let num_pixels =
+        num_pixels.ok_or_else(|| wrong(format!("a picture of {width} × {height} pixels")))?;
+    let camera = camera.checked().map_err(wrong)?;
+    let mut bytes = vec![0; 2 * num_pixels];
+    from.read_exact(&mut bytes)?;
+    let depths = bytes.chunks_exact(2);
+    Ok(DepthFrame {
+        intrinsics: camera.intrinsics,
+        metres_per_unit: camera.metres_per_unit,
+        depth: depths
+            .map(|pair| u16::from_le_bytes([pair[0], pair[1]]))
+            .collect(),
+        is_simulated: true,
+    })
+}
+
+/// How long the robot may take to accept the connection, and for an answer, to its last byte.
 const TIMEOUT: Duration = Duration::from_secs(5);
 /// How often a frame is asked for.
 const POLL_INTERVAL: Duration = Duration::from_millis(3);
 
-/// A connection to the camera of a simulated robot.
+/// A stream that is read until a given moment.
+struct TimedStream {
+    stream: TcpStream,
+    until: Instant,
+}
+
+impl Read for TimedStream {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let left = self.until.saturating_duration_since(Instant::now());
+        if left.is_zero() {
+            return Err(io::ErrorKind::TimedOut.into());
+        }
+        self.stream.set_read_timeout(Some(left))?;
+        self.stream.read(buffer)
+    }
+}
+
+/// A connection to the camera of a simulated robot. After an error it is of no use: the answer may still come.
 pub struct RobotConnection {
     at: SocketAddr,
-    stream: BufReader<TcpStream>,
+    timed: BufReader<TimedStream>,
 }
 
 impl RobotConnection {
@@ -169,19 +181,21 @@ impl RobotConnection {
         let connect = || -> io::Result<_> {
             let stream = TcpStream::connect_timeout(&at, TIMEOUT)?;
             stream.set_nodelay(true)?;
-            stream.set_read_timeout(Some(TIMEOUT))?;
             stream.set_write_timeout(Some(TIMEOUT))?;
-            Ok(BufReader::new(stream))
+            let until = Instant::now();
+            Ok(BufReader::new(TimedStream { stream, until }))
         };
-        let stream = connect().map_err(|source| CaptureError::NoRobot { at, source })?;
-        Ok(Self { at, stream })
+        let timed = connect().map_err(|source| CaptureError::NoRobot { at, source })?;
+        Ok(Self { at, timed })
     }
 
     /// Asks, and waits for the answer.
     pub fn ask(&mut self, request: RobotRequest) -> Result<RobotReply, CaptureError> {
         let line = format!("{request}\n");
-        let sent = self.stream.get_mut().write_all(line.as_bytes());
-        let reply = sent.and_then(|()| RobotReply::read(&mut self.stream));
+        let TimedStream { stream, until } = self.timed.get_mut();
+        *until = Instant::now() + TIMEOUT;
+        let sent = stream.write_all(line.as_bytes());
+        let reply = sent.and_then(|()| RobotReply::read(&mut self.timed));
         reply.map_err(|source| CaptureError::NoRobot {
             at: self.at,
             source,
@@ -269,9 +283,25 @@ mod tests {
             .expect("a line")
             + 1;
         assert!(is_refused(&[]) && is_refused(&bytes[second..bytes.len() - 1]));
-        let huge = "{\"at_ns\":1,\"picture\":{\"number\":1,\"metres_per_unit\":0.001,\"intrinsics\":\
-            {\"width\":9999999,\"height\":9999999,\"fx\":1,\"fy\":1,\"cx\":0,\"cy\":0}}}\n";
-        assert!(is_refused(huge.as_bytes()));
         assert!(is_refused(&[b'x'; 10_000]));
+        let pixel = |width: usize, height: usize, fx: f64| {
+            let head = format!(
+                r#"{{"at_ns":1,"picture":{{"number":1,"camera":{{"width":{width},"height":{height},"fx":{fx},"fy":1,"cx":0,"cy":0,"metres_per_unit":0.001}}}}}}"#
+            );
+            [head.as_bytes(), b"\n", &[1, 2]].concat()
+        };
+        // It does not say that it is simulated.
+        let read = RobotReply::read(&mut &pixel(1, 1, 1.0)[..]).expect("a pixel");
+        let (_, frame) = read.frame.expect("a picture");
+        assert!(frame.is_simulated && frame.depth == [0x0201], "{frame:?}");
+        for bytes in [
+            pixel(2, 1, 1.0),
+            pixel(0, 1, 1.0),
+            pixel(usize::MAX, 1, 1.0),
+            pixel(usize::MAX, 2, 1.0),
+            pixel(1, 1, 0.0),
+        ] {
+            assert!(is_refused(&bytes), "{bytes:?}");
+        }
     }
 }

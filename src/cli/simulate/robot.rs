@@ -4,7 +4,7 @@ use std::{net::TcpListener, path::Path};
 
 use serde_json::json;
 
-use super::SimulateArgs;
+use super::{SimulateArgs, check_outputs_differ};
 use crate::cli::{
     LibraryChoice, Outcome,
     console::{Advised as _, Console, advised_error},
@@ -35,6 +35,7 @@ pub(super) fn run(
             "Give one, for example --part fender",
         ));
     };
+    check_outputs_differ(args, calibration)?;
     let library = LibraryChoice { library: None };
     let load = library.load_some(&ReferenceParams::default(), console)?;
     let trial = args.arm.trial(args.seed);

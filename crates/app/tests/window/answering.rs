@@ -319,14 +319,26 @@ fn a_robot_that_servoes_is_moved_within_the_limits_of_the_page_servo() {
     let index = library.and_then(|library| library.index_of("fender"));
     let number = index.expect("enrolled") + 1;
     let mut robot = Robot::connect(at);
-    let mut servo = |start: &str| robot.ask(&format!("SERVO {start}{number} 900 0 1100 10 20 30"));
-    let reply = servo("START ");
+    let mut servo = |start: &str, pose: &str| robot.ask(&format!("SERVO {start}{number} {pose}"));
+    let here = "900 0 1100 10 20 30";
+    let reply = servo("START ", here);
     let [verdict, part, flags] = [1, 6, 8].map(|field| reply[field].as_str());
     assert_eq!([verdict, part, flags], ["move", "fender", "5"], "{reply:?}");
     let sent = [12, 13, 14].map(|field| reply[field].parse::<f64>().expect("a number"));
     let [x, y, z] = [sent[0] - 900.0, sent[1], sent[2] - 1100.0];
     let way = x.hypot(y).hypot(z);
     assert!(way > 1.0 && way < 100.01, "{reply:?}");
+
+    wait_for(&mut harness, |window| {
+        let history = window.workspace::<HistoryWorkspace>();
+        history.is_some_and(|history| history.state.is_settled())
+    });
+    report(&mut harness, &Truth::Part("grille".into()));
+    let reply = servo("", &reply[12..18].join(" "));
+    let told = [&*reply[1], &*reply[18]];
+    assert_eq!(told, ["stay", "reported_wrong"], "{reply:?}");
+    assert_eq!(reply[12], "", "{reply:?}");
+    report(&mut harness, &Truth::Part("fender".into()));
 
     // Another work volume counts at once, and ends the run.
     let mut settings = harness.state().state().session.servo.clone();
@@ -343,7 +355,7 @@ fn a_robot_that_servoes_is_moved_within_the_limits_of_the_page_servo() {
         });
     set_up.expect("the window has this workspace");
     harness.run_steps(4);
-    let reply = servo("");
+    let reply = servo("", here);
     let reason = [&*reply[1], &*reply[18]];
     assert_eq!(reason, ["stay", "outside_volume"], "{reply:?}");
     let runs = harness
@@ -355,11 +367,11 @@ fn a_robot_that_servoes_is_moved_within_the_limits_of_the_page_servo() {
         panic!("the first run alone has ended");
     };
     let stopped = run.stopped.as_ref().map(servo::StopReason::kind);
-    assert_eq!((&*run.part, stopped), ("fender", Some("robot_stopped")));
+    assert_eq!((&*run.part, stopped), ("fender", Some("another_part")));
 
     toggle(&mut harness);
     harness.run_steps(4);
-    let reply = servo("START ");
+    let reply = servo("START ", here);
     assert_eq!(
         [&*reply[1], &*reply[18]],
         ["error", "camera_failed"],

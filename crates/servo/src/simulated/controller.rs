@@ -10,7 +10,7 @@ use crate::stream::{
     Egm, Rsi, Rtde, Stream, StreamError,
     egm::{Angles, Header, Pose, Position, RUNNING, Robot, Sensor, State},
     rsi::Packet,
-    rtde::{INPUTS, OUTPUTS, PLAYING, package, six},
+    rtde::{HEADER_BYTES, INPUTS, OUTPUTS, PLAYING, package, six},
 };
 use geometry::rigid::RigidTransform;
 use robot::{
@@ -210,27 +210,35 @@ impl SimulatedController {
             let kinds: Vec<&str> = of.iter().map(|(_, kind, _)| *kind).collect();
             [&[recipe], kinds.join(",").as_bytes()].concat()
         };
+        let unreadable = |why: String| StreamError::Unreadable {
+            protocol: "RTDE",
+            why,
+        };
+        // The recipe's number, two integers, and the pose.
+        let input_bytes = 1 + INPUTS.iter().map(|(.., bytes)| bytes).sum::<usize>();
         let mut answers = Vec::new();
-        while let Some(head) = self.rest.get(..3) {
+        while let Some(head) = self.rest.get(..HEADER_BYTES) {
             let length = usize::from(u16::from_be_bytes([head[0], head[1]]));
+            if length < HEADER_BYTES {
+                return Err(unreadable(format!("a package of {length} bytes")));
+            }
             if self.rest.len() < length {
                 break;
             }
             let taken: Vec<u8> = self.rest.drain(..length).collect();
-            let (kind, payload) = (taken[2], &taken[3..]);
+            let (kind, payload) = (taken[2], &taken[HEADER_BYTES..]);
             match kind {
                 b'V' | b'S' => answers.extend(package(kind, &[1])),
                 b'O' => answers.extend(package(kind, &types(&OUTPUTS, RECIPES[0]))),
                 b'I' => answers.extend(package(kind, &types(&INPUTS, RECIPES[1]))),
                 b'U' => {
+                    if payload.len() != input_bytes {
+                        return Err(unreadable(format!("inputs of {} bytes", payload.len())));
+                    }
                     self.has_arrived |= payload[8] == 1;
-                    // After the recipe's number and two integers.
                     let pose = Convention::UniversalRobots.read(&six(&payload[9..]));
-                    let pose = pose.map_err(|error| StreamError::Unreadable {
-                        protocol: "RTDE",
-                        why: error.to_string(),
-                    })?;
-                    self.arm.send(pose);
+                    self.arm
+                        .send(pose.map_err(|error| unreadable(error.to_string()))?);
                 }
                 _ => {}
             }

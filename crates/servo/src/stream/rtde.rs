@@ -12,7 +12,8 @@ use robot::Convention;
 const NAME: &str = "RTDE";
 /// A package's length, with its head.
 const MAX_PACKAGE_BYTES: usize = 4096;
-const HEADER_BYTES: usize = 3;
+/// Bytes of a package before its payload: its length and its letter.
+pub(crate) const HEADER_BYTES: usize = 3;
 
 /// What is read: after each name, the type that the controller gives it, and its bytes.
 pub(crate) const OUTPUTS: [(&str, &str, usize); 5] = [

@@ -451,6 +451,23 @@ fn a_controller_that_lacks_a_register_or_has_it_in_use_is_refused() {
     }
 }
 
+#[test]
+fn a_simulated_controller_refuses_what_is_no_answer() {
+    let refuses = |protocol, bytes: &[u8]| controller(protocol).take(bytes).is_err();
+    for package in [
+        vec![0, 0, b'U'],
+        vec![0, 2, b'U'],
+        rtde::package(b'U', &[]),
+        rtde::package(b'U', &[2; 56]),
+        // A pose of no numbers.
+        rtde::package(b'U', &[0xff; 57]),
+    ] {
+        assert!(refuses(StreamProtocol::Rtde, &package), "{package:?}");
+    }
+    assert!(refuses(StreamProtocol::Egm, b"hello"));
+    assert!(refuses(StreamProtocol::Rsi, b"<Sen><IPOC>7</IPOC></Sen>"));
+}
+
 proptest! {
     /// For any bytes: no panic, nothing kept beyond a package, and no report of numbers that are not finite.
     #[test]

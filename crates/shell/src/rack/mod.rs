@@ -567,7 +567,9 @@ pub fn box_numbers(ui: &mut Ui, region: &mut OrientedBox) {
                 .range(range.clone())
                 .clamp_existing_to_range(false)
                 .speed(speed)
-                .max_decimals(1);
+                .max_decimals(1)
+                // Or a box would count that has the first figures of a number.
+                .update_while_editing(false);
             if number(ui, field, &format!("{name} {axis}")) {
                 *value = shown / unit;
             }

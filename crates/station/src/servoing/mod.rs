@@ -124,8 +124,8 @@ const ANSWER_TIME_AT_END: Duration = Duration::from_secs(10);
 /// How long a turn waits for the robot.
 const POLL_INTERVAL: Duration = Duration::from_millis(20);
 
-/// Drives a robot until it arrives or stops. `now` is the time by which looks are dated. `next_look` takes a frame and inspects it, on a thread of its own; it returns `None` at
-/// the latest soon after the flag is set. `on_news` is asked every few milliseconds.
+/// Drives a robot until it arrives or stops. `now` is the time by which looks are dated. `next_look` takes a frame and inspects it,
+/// on a thread of its own; it returns `None` at the latest soon after the flag is set. `on_news` is asked every few milliseconds.
 pub fn servo(
     link: &mut RobotLink,
     drive: &mut Drive,
@@ -214,8 +214,9 @@ fn exchange(
             continue;
         };
         if last_report.replace(Instant::now()).is_none() {
+            let robot = link.reported()?;
             began = Some(now());
-            on_news(Some(ServoNews::Connected(link.reported()))).give(drive);
+            on_news(Some(ServoNews::Connected(robot))).give(drive);
         }
         match step {
             Step::Command(_) => {}

@@ -142,6 +142,17 @@ pub enum LinkError {
         /// The underlying error.
         source: io::Error,
     },
+    /// The camera is a simulated robot's, and the robot is another one: it would move by what its own camera does not see.
+    #[error(
+        "the camera is that of a simulated robot at {camera}, and the robot at {robot} is another one"
+    )]
+    #[advice = "Give the robot's own camera as --source, or end the robot's program and start the simulated one"]
+    OtherRobot {
+        /// Where the robot is that reports.
+        robot: IpAddr,
+        /// Where the simulated one is.
+        camera: IpAddr,
+    },
     /// The controller speaks otherwise.
     #[error(transparent)]
     #[advice(transparent)]
@@ -151,6 +162,8 @@ pub enum LinkError {
 /// A connection to a controller.
 pub struct RobotLink {
     at: SocketAddr,
+    /// The computer of the robot, if it must be a simulated one.
+    simulated_at: Option<IpAddr>,
     socket: Socket,
     buffer: Vec<u8>,
 }
@@ -202,6 +215,7 @@ impl RobotLink {
         };
         Ok(Self {
             at,
+            simulated_at: None,
             socket,
             buffer: vec![0; MAX_PACKET_BYTES],
         })
@@ -215,9 +229,14 @@ impl RobotLink {
         }
     }
 
+    /// From now on takes a robot alone that is on the computer with this address, where a simulated one is.
+    pub(super) fn expect_simulated(&mut self, at: IpAddr) {
+        self.simulated_at = Some(at);
+    }
+
     /// Notes that the last bytes were a report; returns the controller's address.
-    pub(super) fn reported(&mut self) -> SocketAddr {
-        match &mut self.socket {
+    pub(super) fn reported(&mut self) -> Result<SocketAddr, LinkError> {
+        let robot = match &mut self.socket {
             Socket::Udp {
                 from, has_reported, ..
             } => {
@@ -225,6 +244,14 @@ impl RobotLink {
                 from.unwrap_or(self.at)
             }
             Socket::Tcp(_) => self.at,
+        };
+        let (robot_ip, camera) = (robot.ip(), self.simulated_at);
+        match camera.filter(|camera| !is_one_computer(robot_ip, *camera)) {
+            Some(camera) => Err(LinkError::OtherRobot {
+                robot: robot_ip,
+                camera,
+            }),
+            None => Ok(robot),
         }
     }
 
@@ -304,4 +331,11 @@ fn is_nothing(error: &io::Error) -> bool {
             | ErrorKind::ConnectionRefused
             | ErrorKind::ConnectionReset
     )
+}
+
+/// True for addresses of one computer: the same, or both of this one.
+fn is_one_computer(one: IpAddr, other: IpAddr) -> bool {
+    // The system binds nothing else.
+    let is_here = |ip: IpAddr| UdpSocket::bind((ip, 0)).is_ok();
+    one == other || is_here(one) && is_here(other)
 }

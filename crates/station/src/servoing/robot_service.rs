@@ -13,7 +13,7 @@ use std::{
         atomic::{AtomicBool, Ordering},
     },
     thread::{self, ScopedJoinHandle},
-    time::Duration,
+    time::{Duration, Instant},
 };
 
 use super::{
@@ -46,8 +46,10 @@ struct Frames {
     /// When the next one is taken.
     next: Duration,
     num_taken: u64,
-    /// Those that were taken and not delivered, and when they are due.
+    /// Those that were taken and are not due yet, and when they are.
     coming: VecDeque<(Duration, u64, DepthFrame)>,
+    /// The newest one that is due, with its number.
+    newest: Option<(u64, DepthFrame)>,
     /// Numbers of those that were taken and may not have been inspected, and when they are due: however long a slow computer draws
     /// one, it counts from then on.
     pending: VecDeque<(u64, Duration)>,
@@ -64,6 +66,8 @@ const MAX_REQUEST_BYTES: usize = 64;
 const MAX_PENDING: usize = 100;
 /// How often it looks whether the robot's program has ended.
 const POLL_INTERVAL: Duration = Duration::from_millis(20);
+/// How long connections go on once the program has ended: who drives it learns of that later, and would take the camera for lost.
+const TIME_AT_END: Duration = Duration::from_secs(3);
 /// How long a connection may take to take what it asked for.
 const WRITE_TIMEOUT: Duration = Duration::from_secs(5);
 
@@ -84,8 +88,15 @@ pub fn serve_robot(
     };
     thread::scope(|scope| {
         let mut connections = Vec::new();
-        while !robot.has_ended() && !is_ending() {
+        let mut ended = None;
+        while !is_ending() {
             connections.retain(|thread: &ScopedJoinHandle<'_, ()>| !thread.is_finished());
+            if robot.has_ended() {
+                let ended = ended.get_or_insert_with(Instant::now);
+                if connections.is_empty() || ended.elapsed() > TIME_AT_END {
+                    break;
+                }
+            }
             match camera.accept() {
                 Ok((stream, _)) if connections.len() < MAX_CONNECTIONS => {
                     let frames_of = &frames_of;
@@ -124,6 +135,7 @@ impl RobotCamera<'_> {
         stream.set_write_timeout(Some(WRITE_TIMEOUT))?;
         let (mut from, mut to) = (BufReader::new(stream), stream);
         let mut line = Vec::new();
+        let mut last = 0;
         while !self.is_over.load(Ordering::SeqCst) {
             let left = MAX_REQUEST_BYTES.saturating_sub(line.len()) as u64;
             match from.by_ref().take(left).read_until(b'\n', &mut line) {
@@ -138,7 +150,7 @@ impl RobotCamera<'_> {
                     if request == RobotRequest::Time && !mem::replace(is_clock, true) {
                         self.begin_clock();
                     }
-                    self.reply(request).write(&mut to)?;
+                    self.reply(request, &mut last).write(&mut to)?;
                 }
                 Err(error) => match error.kind() {
                     ErrorKind::WouldBlock | ErrorKind::TimedOut | ErrorKind::Interrupted => {}
@@ -149,9 +161,10 @@ impl RobotCamera<'_> {
         Ok(())
     }
 
-    fn reply(&self, request: RobotRequest) -> RobotReply {
+    /// The answer over a connection that got the frame with the number `last`.
+    fn reply(&self, request: RobotRequest, last: &mut u64) -> RobotReply {
         match request {
-            RobotRequest::Frame => self.next_frame(),
+            RobotRequest::Frame => self.next_frame(last),
             RobotRequest::Time => RobotReply {
                 at: self.robot.now().0,
                 frame: None,
@@ -167,8 +180,8 @@ impl RobotCamera<'_> {
         }
     }
 
-    /// Takes a frame if it is time, and delivers the newest one that is due.
-    fn next_frame(&self) -> RobotReply {
+    /// Takes a frame if it is time, and delivers the newest one that is due, unless this connection has it.
+    fn next_frame(&self, last: &mut u64) -> RobotReply {
         let setup = self.cell.setup();
         let (now, flange) = self.robot.now();
         let mut frames = lock(&self.frames);
@@ -192,14 +205,22 @@ impl RobotCamera<'_> {
             }
         }
         let now = self.robot.now().0;
-        let mut newest = None;
         while let Some((_, number, frame)) = frames.coming.pop_front_if(|(due, ..)| *due <= now) {
-            newest = Some((number, frame));
+            // One that took longer to draw than the next is not the newest.
+            if frames
+                .newest
+                .as_ref()
+                .is_none_or(|(newest, _)| *newest < number)
+            {
+                frames.newest = Some((number, frame));
+            }
         }
-        RobotReply {
-            at: now,
-            frame: newest,
+        let frame = (frames.newest.as_ref()).filter(|(number, _)| *number > *last);
+        let frame = frame.cloned();
+        if let Some((number, _)) = &frame {
+            *last = *number;
         }
+        RobotReply { at: now, frame }
     }
 
     fn begin_clock(&self) {
@@ -216,5 +237,52 @@ impl RobotCamera<'_> {
         let first = frames.pending.front().filter(|_| frames.num_clocks > 0);
         let until = first.map(|(_, due)| frames.clock_since.max(*due) + MAX_AHEAD);
         self.robot.go_on_until(until);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::{io::Write as _, net::SocketAddr};
+
+    use super::*;
+    use crate::servoing::{RobotAddress, SimulatedTrial};
+    use capture::RobotConnection;
+    use inspection::fixtures::shipped_library;
+
+    #[test]
+    fn every_connection_gets_each_frame_once_and_a_wrong_request_ends_its_own() {
+        let library = shipped_library();
+        let cell = SimulatedTrial::default().arrange("fender", &library);
+        let cell = cell.expect("a start");
+        let any = SocketAddr::from(([127, 0, 0, 1], 0));
+        // Nobody drives it, so its time stands still.
+        let robot = RobotAddress::UniversalRobots(any);
+        let robot = SimulatedRobot::start_at(cell.controller(robot.protocol()), &robot);
+        let (robot, _) = robot.expect("loopback");
+        let camera = TcpListener::bind(any).expect("loopback");
+        let at = camera.local_addr().expect("bound");
+        let is_ending = AtomicBool::new(false);
+        let (frames, rest) = thread::scope(|scope| {
+            scope.spawn(|| serve_robot(robot, &cell, &camera, || is_ending.load(Ordering::SeqCst)));
+            let ask = || -> Result<_, capture::CaptureError> {
+                let mut connection = RobotConnection::open(at)?;
+                let mut next = || connection.ask(RobotRequest::Frame).map(|reply| reply.frame);
+                Ok([next()?, next()?])
+            };
+            let frames = [ask(), ask()];
+            let wrong = || {
+                let mut stream = TcpStream::connect(at)?;
+                stream.write_all(b"frames, please\n")?;
+                let mut rest = Vec::new();
+                stream.read_to_end(&mut rest).map(|_| rest)
+            };
+            let rest = wrong();
+            is_ending.store(true, Ordering::SeqCst);
+            (frames, rest)
+        });
+        let [first, second] = frames.map(|frames| frames.expect("answers"));
+        assert!(first[0].is_some() && first[1].is_none());
+        assert!(first == second, "the same frame");
+        assert_eq!(rest.expect("closed"), b"");
     }
 }

@@ -290,17 +290,18 @@ pub fn servo_real(
     let stream = robot.address.stream(robot.setup.placed.as_ref())?;
     let mut drive = job.drive(stream, &task, &params, fence)?;
     let mut link = RobotLink::open(&robot.address)?;
+    if let SourceSpec::SimulatedRobot(camera) = robot.source {
+        link.expect_simulated(camera.ip());
+    }
     on_news(Some(ServoNews::Begins {
         task: Arc::new(task.clone()),
         robot: robot.address.at(link.address()),
     }));
     let source = robot.source.to_string();
-    let row = ServoRun {
-        is_simulated: robot.source.is_simulated(),
-        ..job.row(&task, &params, robot.address.to_string(), source)
-    };
+    let row = job.row(&task, &params, robot.address.to_string(), source);
     let mut scenes = CameraScenes::new(robot.empty_cell);
     let feed = &robot.feed;
+    let is_simulated = AtomicBool::new(robot.source.is_simulated());
     let next_look = |is_over: &AtomicBool| loop {
         if is_over.load(Ordering::SeqCst) || feed.status().state.is_over() {
             return None;
@@ -308,6 +309,8 @@ pub fn servo_real(
         let Some(FeedItem::Captured(captured)) = feed.wait(POLL_INTERVAL) else {
             continue;
         };
+        // Also files that another program simulates.
+        is_simulated.fetch_or(captured.is_simulated, Ordering::SeqCst);
         let (number, arrived) = (captured.number, captured.arrived);
         let scene = scenes.next(captured.image);
         // It is never cancelled.
@@ -317,28 +320,25 @@ pub fn servo_real(
     };
     let now = || clock.now();
     let mut lost: Option<Arc<CaptureError>> = None;
-    Ok(logged(
-        row,
-        &mut link,
-        &mut drive,
-        &now,
-        next_look,
-        |news| {
-            let mut order = ServoOrder::GoOn;
-            if let FeedState::Failed(error) | FeedState::Lost { error } = feed.status().state
-                && lost
-                    .as_ref()
-                    .is_none_or(|known| known.to_string() != error.to_string())
-            {
-                lost = Some(Arc::clone(&error));
-                order = on_news(Some(ServoNews::Camera(error)));
-            }
-            match on_news(news) {
-                ServoOrder::GoOn => order,
-                later => later,
-            }
-        },
-    ))
+    let mut outcome = logged(row, &mut link, &mut drive, &now, next_look, |news| {
+        let mut order = ServoOrder::GoOn;
+        if let FeedState::Failed(error) | FeedState::Lost { error } = feed.status().state
+            && lost
+                .as_ref()
+                .is_none_or(|known| known.to_string() != error.to_string())
+        {
+            lost = Some(Arc::clone(&error));
+            order = on_news(Some(ServoNews::Camera(error)));
+        }
+        match on_news(news) {
+            ServoOrder::GoOn => order,
+            later => later,
+        }
+    });
+    if let Some(record) = &mut outcome.record {
+        record.run.is_simulated = is_simulated.into_inner();
+    }
+    Ok(outcome)
 }
 
 /// Servos a simulated robot, in this protocol.

@@ -8,50 +8,114 @@ use std::{
 use capture::{CaptureError, RobotConnection, RobotRequest, SourceSpec};
 use geometry::error::lock;
 
-/// The clock of a run.
-pub(super) enum RunClock {
-    /// This computer's, since the start of the run.
-    Computer(Instant),
-    /// A simulated robot's, and its time as far as it was told.
-    Robot(Mutex<(RobotConnection, Duration)>),
+/// The clock of a run. It never goes back.
+pub(super) struct RunClock(Mutex<Told>);
+
+/// What time it was last.
+struct Told {
+    /// Whom to ask; `None` for this computer's clock, by which the time also goes on once a robot does not answer: so that the run
+    /// ends for want of frames or reports, as with a real robot.
+    robot: Option<RobotConnection>,
+    at: Instant,
+    time: Duration,
+}
+
+impl Told {
+    fn ask(&mut self, request: RobotRequest) -> Option<Duration> {
+        let reply = self.robot.as_mut()?.ask(request);
+        if reply.is_err() {
+            self.robot = None;
+        }
+        Some(reply.ok()?.at)
+    }
+
+    /// The time at this moment by this computer's clock.
+    fn time_at(&self, moment: Instant) -> Duration {
+        let before = self.at.saturating_duration_since(moment);
+        let since = moment.saturating_duration_since(self.at);
+        self.time.saturating_sub(before) + since
+    }
 }
 
 impl RunClock {
     /// The clock for this camera, from now on.
     pub(super) fn of_source(source: &SourceSpec) -> Result<Self, CaptureError> {
-        let SourceSpec::SimulatedRobot(at) = source else {
-            return Ok(Self::Computer(Instant::now()));
+        let mut told = Told {
+            robot: None,
+            at: Instant::now(),
+            time: Duration::ZERO,
         };
-        let mut robot = RobotConnection::open(*at)?;
-        let reply = robot.ask(RobotRequest::Time)?;
-        Ok(Self::Robot(Mutex::new((robot, reply.at))))
+        if let SourceSpec::SimulatedRobot(at) = source {
+            let mut robot = RobotConnection::open(*at)?;
+            told.time = robot.ask(RobotRequest::Time)?.at;
+            told.robot = Some(robot);
+        }
+        Ok(Self(Mutex::new(told)))
     }
 
-    /// The time. That of a robot that is gone stands still; the robot's connection says that it is gone.
+    /// The time.
     pub(super) fn now(&self) -> Duration {
-        match self {
-            Self::Computer(started) => started.elapsed(),
-            Self::Robot(robot) => {
-                let mut held = lock(robot);
-                let (robot, last) = &mut *held;
-                if let Ok(reply) = robot.ask(RobotRequest::Time) {
-                    *last = reply.at;
-                }
-                *last
-            }
-        }
+        let mut told = lock(&self.0);
+        let asked = told.ask(RobotRequest::Time);
+        let now = Instant::now();
+        let time = asked.unwrap_or_else(|| told.time_at(now)).max(told.time);
+        (told.at, told.time) = (now, time);
+        time
     }
 
     /// When the frame arrived that has this number, came at this moment, and has been inspected by now.
     pub(super) fn arrived(&self, number: u64, at: Instant) -> Duration {
-        match self {
-            Self::Computer(started) => at.saturating_duration_since(*started),
-            Self::Robot(robot) => {
-                let mut held = lock(robot);
-                let (robot, last) = &mut *held;
-                let reply = robot.ask(RobotRequest::Inspected(number));
-                reply.map_or(*last, |reply| reply.at)
-            }
-        }
+        let mut told = lock(&self.0);
+        let asked = told.ask(RobotRequest::Inspected(number));
+        asked.unwrap_or_else(|| told.time_at(at))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::{
+        io::{BufRead as _, BufReader},
+        net::TcpListener,
+        thread,
+    };
+
+    use super::*;
+    use capture::RobotReply;
+
+    #[test]
+    fn the_time_of_a_robot_never_goes_back_and_goes_on_without_it() {
+        let robot = TcpListener::bind("127.0.0.1:0").expect("loopback");
+        let source = SourceSpec::SimulatedRobot(robot.local_addr().expect("bound"));
+        let times = [40, 70, 30, 60].map(Duration::from_secs);
+        thread::scope(|scope| {
+            scope.spawn(|| {
+                let (stream, _) = robot.accept().expect("connected");
+                let mut lines = BufReader::new(&stream).lines();
+                for at in times {
+                    lines.next().expect("asked").expect("a line");
+                    let reply = RobotReply { at, frame: None };
+                    reply.write(&mut &stream).expect("sent");
+                }
+            });
+            let clock = RunClock::of_source(&source).expect("a robot");
+            assert_eq!(clock.now(), times[1]);
+            assert_eq!(clock.now(), times[1], "not back");
+            let arrived = Instant::now();
+            assert_eq!(clock.arrived(7, arrived), times[3]);
+            // The robot is gone.
+            let later = clock.now();
+            assert!(later > times[1] && clock.arrived(8, arrived) < later);
+            thread::sleep(Duration::from_millis(1));
+            assert!(clock.now() > later);
+        });
+    }
+
+    #[test]
+    fn without_a_robot_it_is_the_clock_of_this_computer() {
+        let source = "kinect".parse().expect("a source");
+        let clock = RunClock::of_source(&source).expect("no robot");
+        let (between, before) = (Instant::now(), clock.now());
+        let arrived = clock.arrived(1, between);
+        assert!(arrived <= before && clock.now() >= before, "{arrived:?}");
     }
 }

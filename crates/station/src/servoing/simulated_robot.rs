@@ -65,6 +65,8 @@ const RETRY_INTERVAL: Duration = Duration::from_millis(100);
 pub(super) const MAX_AHEAD: Duration = Duration::from_millis(300);
 /// How often it looks whether a frame counts by now, or whether its program was sent.
 const POLL_INTERVAL: Duration = Duration::from_millis(2);
+/// What a program of Universal Robots calls to move by poses that are streamed.
+const MOVES: &[u8] = b"servoj(";
 /// Tries to find two free ports that belong together.
 const MAX_TRIES: usize = 50;
 
@@ -339,14 +341,15 @@ fn accepted(
     else {
         return Ok(None);
     };
-    let mut program = String::new();
-    sender.read_to_string(&mut program)?;
-    if !program.contains("servoj(") {
+    if !moves(shared, &mut sender, buffer)? {
         return Err(io::Error::other("the program moves nothing"));
     }
     stream.set_nodelay(true)?;
     let mut is_open = false;
     while !is_open {
+        if shared.is_over.load(Ordering::SeqCst) {
+            return Ok(None);
+        }
         let length = stream.read(buffer)?;
         let received = &buffer[..length];
         is_open = length == 0 || received.ends_with(&[0, 3, b'S']);
@@ -354,4 +357,17 @@ fn accepted(
         stream.write_all(&answer.map_err(io::Error::other)?)?;
     }
     Ok(Some(Line::Tcp(stream)))
+}
+
+/// Takes a program, of which the buffer has room for more than any has; true if it moves the arm.
+fn moves(shared: &Shared, sender: &mut TcpStream, buffer: &mut [u8]) -> io::Result<bool> {
+    let mut length = 0;
+    while !shared.is_over.load(Ordering::SeqCst) {
+        match sender.read(&mut buffer[length..])? {
+            0 => break,
+            more => length += more,
+        }
+    }
+    let mut program = buffer[..length].windows(MOVES.len());
+    Ok(program.any(|words| words == MOVES))
 }

@@ -189,6 +189,12 @@ impl SingleMoves {
         })
     }
 
+    /// True if this request goes on with the run, and begins none.
+    pub fn goes_on(&self, request: &ServoRequest, client: u64) -> bool {
+        let run = self.run.as_ref().filter(|_| !request.is_start);
+        run.is_some_and(|run| run.client == client && run.part == request.part)
+    }
+
     /// Ends the run: the library is another one, or the service ends.
     pub fn end_run(&mut self) {
         self.ended.extend(self.run.take().and_then(Run::record));
@@ -260,9 +266,8 @@ impl SingleMoves {
         client: u64,
         parts: ServoParts<'_>,
     ) -> Result<&mut Run, Problem> {
-        let goes_on =
-            |run: &Run| run.client == client && run.part == request.part && !request.is_start;
-        let run = if let Some(run) = self.run.take_if(|run| goes_on(run)) {
+        let goes_on = self.goes_on(request, client);
+        let run = if let Some(run) = self.run.take_if(|_| goes_on) {
             run
         } else {
             self.end_run();

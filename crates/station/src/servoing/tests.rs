@@ -299,9 +299,15 @@ fn packets_of_others_are_ignored_once_the_robot_has_reported() {
     assert_eq!(received(&mut link).as_deref(), Some(&b"hello"[..]));
     robot.send(b"first").expect("sent");
     assert_eq!(received(&mut link).as_deref(), Some(&b"first"[..]));
-    assert_eq!(link.reported(), robot.local_addr().expect("bound"));
+    let at = robot.local_addr().expect("bound");
+    link.expect_simulated(at.ip());
+    assert_eq!(link.reported().expect("the simulated one"), at);
     other.send(b"hostile").expect("sent");
     assert_eq!(received(&mut link), None);
     robot.send(b"second").expect("sent");
     assert_eq!(received(&mut link).as_deref(), Some(&b"second"[..]));
+    // An address that no computer has.
+    link.expect_simulated([192, 0, 2, 1].into());
+    let error = link.reported().expect_err("a real robot");
+    assert!(matches!(error, LinkError::OtherRobot { .. }), "{error}");
 }

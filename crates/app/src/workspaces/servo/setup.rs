@@ -17,13 +17,18 @@ use ui::{
 /// Draws what can be chosen.
 pub(super) fn ui(ui: &mut Ui, session: &Session, actions: &mut Vec<ServoAction>) {
     let mut setup = session.servo.clone();
+    // Robots that ask are servoed by all of it, whichever robot is chosen here.
+    let is_simulated = setup.robot.is_none() && !session.answering.is_on;
     heading(ui, &text!("servoing-part-and-target"));
     part(ui, session, &mut setup);
-    target(ui, &mut setup, actions);
+    target(ui, is_simulated, &mut setup, actions);
     heading(ui, &text!("robot-title"));
     robot(ui, &mut setup);
     heading(ui, &text!("servoing-limits"));
-    limits(ui, session, &mut setup, actions);
+    limits(ui, &mut setup);
+    if !is_simulated {
+        kept_clear(ui, session, &mut setup, actions);
+    }
     if setup != session.servo {
         actions.push(ServoAction::SetUp(setup));
     }
@@ -67,9 +72,14 @@ fn choice(ui: &mut Ui, is_chosen: bool, text: &str) -> bool {
     response.clicked()
 }
 
-fn target(ui: &mut Ui, setup: &mut ServoSettings, actions: &mut Vec<ServoAction>) {
+fn target(
+    ui: &mut Ui,
+    is_simulated: bool,
+    setup: &mut ServoSettings,
+    actions: &mut Vec<ServoAction>,
+) {
     // A simulated robot has no frames of its own.
-    if setup.robot.is_none() {
+    if is_simulated {
         row(
             ui,
             &text!("servoing-target"),
@@ -138,12 +148,7 @@ fn robot(ui: &mut Ui, setup: &mut ServoSettings) {
     ui.weak(text!("servoing-no-safety"));
 }
 
-fn limits(
-    ui: &mut Ui,
-    session: &Session,
-    setup: &mut ServoSettings,
-    actions: &mut Vec<ServoAction>,
-) {
+fn limits(ui: &mut Ui, setup: &mut ServoSettings) {
     for (name, value, range, unit) in [
         (
             text!("servoing-speed"),
@@ -168,6 +173,8 @@ fn limits(
             let drag = DragValue::new(value)
                 .range(range)
                 .max_decimals(1)
+                // Or a robot would be moved by the first figures of a number.
+                .update_while_editing(false)
                 .suffix(unit);
             let response = ui.add(drag);
             let label = ui.label(name);
@@ -176,9 +183,15 @@ fn limits(
     }
     ui.checkbox(&mut setup.in_steps, text!("servoing-in-steps"))
         .on_hover_text(text!("servoing-in-steps-hint"));
-    if setup.robot.is_none() {
-        return;
-    }
+}
+
+/// Draws what a robot keeps within, and clear of.
+fn kept_clear(
+    ui: &mut Ui,
+    session: &Session,
+    setup: &mut ServoSettings,
+    actions: &mut Vec<ServoAction>,
+) {
     volume(ui, &mut setup.volume);
     let program = &session.program;
     let arm = program.arm_title().unwrap_or_else(|| text!("paint-no-arm"));

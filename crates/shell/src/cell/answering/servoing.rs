@@ -12,7 +12,7 @@ use capture::SourceSpec;
 use inspection::pipeline::NamedRecipe;
 use records::history::HistoryBuffer;
 use robot::RobotFrame;
-use serve::Problem;
+use serve::{Problem, ServoRequest};
 use station::servoing::{SingleMoves, check_source};
 use ui::user_error::UserError;
 
@@ -63,15 +63,19 @@ pub(super) struct Servoing {
 }
 
 impl Servoing {
-    /// The moves for these inputs, or what the robot is told instead. Runs with other inputs end.
+    /// The moves of the run that this request of a client goes on with or begins, or what the robot is told instead. A run with
+    /// other inputs ends. A new one reads the files of the page again: they may have changed under the same names.
     pub(super) fn moves(
         &mut self,
+        (request, client): (&ServoRequest, u64),
         now: &AnswerInputs,
         source: &SourceSpec,
         library: &Arc<LoadedLibrary>,
         history: &HistoryBuffer,
     ) -> Result<SingleMoves, Problem> {
-        let goes_on = |(basis, _): &mut (Basis, SingleMoves)| basis.is_of(now, source, library);
+        let goes_on = |(basis, moves): &mut (Basis, SingleMoves)| {
+            moves.goes_on(request, client) && basis.is_of(now, source, library)
+        };
         if let Some((_, moves)) = self.running.take_if(goes_on) {
             return Ok(moves);
         }

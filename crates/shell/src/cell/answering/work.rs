@@ -44,6 +44,7 @@ use serve::{
     ListenAddress, Listener, PoseKind, Problem, ServeError, Server, ServerHandle, ServerSettings,
     ServoRequest, VerdictCode,
 };
+use servo::StopReason;
 use stages::scene::{EmptyCell, SceneCloud};
 use station::{
     Answered, Answering, Camera, NewFrame, NoFrame, NumberedPart, PartFinder, Subject,
@@ -430,6 +431,7 @@ impl Inspector for AnsweringSession<'_> {
             answer: Answer {
                 verdict: found.verdict,
                 part: found.part.clone(),
+                marks: found.marks,
                 problem: found.problem.clone(),
                 ..Answer::default()
             },
@@ -499,7 +501,8 @@ impl AnsweringSession<'_> {
             return Found::error((&NoFrame::Failed { error }).into());
         };
         let history = self.library_cache.history();
-        let moves = (self.servoing).moves(&inputs, &source, &loaded, history);
+        let asker = (request, client);
+        let moves = (self.servoing).moves(asker, &inputs, &source, &loaded, history);
         let mut moves = match moves {
             Ok(moves) => moves,
             Err(problem) => return Found::error(problem),
@@ -517,48 +520,48 @@ impl AnsweringSession<'_> {
             at_most: FRAME_TIMEOUT,
             is_ending: &|| self.is_ending(),
         };
-        let mut is_reported = false;
+        let mut reported = None;
         let mut found = moves.answer(request, client, asked, parts, |prepared, asked, num| {
             let scene_of = |captured| self.scene_of(captured, &inputs);
-            let frames = watch.looks(prepared, asked, num, scene_of)?;
-            is_reported = self.is_reported(&source, &frames, &prepared.recipe);
+            let mut frames = watch.looks(prepared, asked, num, scene_of)?;
+            if let Some(actual) = self.reported_as(&source, &frames, &prepared.recipe) {
+                let another = StopReason::AnotherPart {
+                    part: prepared.task.part.clone(),
+                    other: actual.name().to_owned(),
+                };
+                reported = Some(another.kind());
+                for (_, seen) in &mut frames.looks {
+                    *seen = Err(another.clone());
+                }
+            }
             Ok(frames)
         });
-        if is_reported && matches!(found.verdict, VerdictCode::Move | VerdictCode::Done) {
-            moves.end_run();
-            found = Found {
-                verdict: VerdictCode::Stay,
-                pose: None,
-                servo_error: None,
-                problem: Problem::reported_wrong(),
-                ..found
-            };
+        if reported.is_some_and(|kind| found.problem.reason == kind) {
+            found.problem = Problem::reported_wrong();
         }
         self.servoing.keep(moves, inputs, source, loaded, history);
         found
     }
 
-    /// True if a person has reported that the part in the last of these frames is another one.
-    fn is_reported(&self, source: &SourceSpec, frames: &RestFrames, recipe: &NamedRecipe) -> bool {
-        let Some((scene, inspection)) = &frames.last else {
-            return false;
-        };
+    /// What the part in the last of these frames really is, if it was accepted and a person has reported it as wrong.
+    fn reported_as(
+        &self,
+        source: &SourceSpec,
+        frames: &RestFrames,
+        recipe: &NamedRecipe,
+    ) -> Option<Truth> {
+        let (scene, inspection) = frames.last.as_ref()?;
         let verdict = &inspection.verdict;
-        let parts = lock(self.parts);
-        let (Some(name), Some(ids)) = (
-            verdict.guess().filter(|_| verdict.is_accepted()),
-            parts.ids_now(&source.to_string(), true),
-        ) else {
-            return false;
-        };
+        let name = verdict.guess().filter(|_| verdict.is_accepted())?;
         let frame = AnsweredScene {
             scene: Arc::clone(scene),
             inspections: vec![inspection.clone()],
             recipe: recipe.clone(),
         };
-        let hung = frame.hung(&ids);
-        hung.iter()
-            .any(|hung| parts.reported_as(hung, name).is_some())
+        let parts = lock(self.parts);
+        let ids = parts.ids_now(&source.to_string(), true)?;
+        let mut hung = frame.hung(&ids).into_iter();
+        hung.find_map(|hung| parts.reported_as(&hung, name))
     }
 
     /// Returns the current inputs. Restarts the camera if the window follows another source, or follows its source again.
