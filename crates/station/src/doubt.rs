@@ -50,6 +50,8 @@ pub enum Doubt {
     Old,
     /// Another pose fits nearly as well.
     Ambiguous,
+    /// The surface has a dent, a bump or something missing beyond its limit.
+    Surface,
     /// The part is larger or smaller than its reference, so the camera's numbers are probably wrong.
     OffScale(OffScale),
     /// The frames of a scan, or the poses of their cameras, contradict one another.
@@ -77,6 +79,7 @@ impl Doubt {
             Self::ClockAhead(_) => "clock_ahead",
             Self::Old => "old",
             Self::Ambiguous => "ambiguous_pose",
+            Self::Surface => "surface",
             Self::OffScale(_) => "off_scale",
             Self::Scan(scan::Doubt::PoorAgreement { .. }) => "frames_disagree",
             Self::Scan(scan::Doubt::PosesApart { .. }) => "poses_apart",
@@ -139,6 +142,8 @@ impl Inspected<'_> {
         let is_accepted = inspection.verdict.is_accepted();
         let pose = inspection.found_pose();
         let is_ambiguous = pose.is_some_and(PoseEstimate::is_ambiguous);
+        let surface = inspection.surface.as_ref();
+        let is_surface_bad = surface.is_some_and(|check| check.verdict.is_bad());
         let of_scan = subject.scan.as_ref().and_then(|scan| scan.doubt.clone());
         let doubts = [
             (subject.reported_as.is_some()).then_some(Doubt::ReportedWrong),
@@ -146,6 +151,7 @@ impl Inspected<'_> {
             pose.is_none().then_some(Doubt::NoPose),
             subject.currency.clone(),
             is_ambiguous.then_some(Doubt::Ambiguous),
+            is_surface_bad.then_some(Doubt::Surface),
             pose.and_then(PoseEstimate::off_scale).map(Doubt::OffScale),
             of_scan.map(Doubt::Scan),
             robot.is_none().then_some(Doubt::NotCalibrated),
@@ -181,7 +187,7 @@ mod tests {
     use geometry::{rigid::RigidTransform, units::Metres};
     use inspection::{
         fixtures::shipped_library,
-        pipeline::{Inspection, NamedRecipe, Unwatched, run},
+        pipeline::{Inspection, NamedRecipe, SurfaceCheck, SurfaceVerdict, Unwatched, run},
     };
     use robot::RobotFrame;
     use simulate::{PartKind, Side};
@@ -271,6 +277,18 @@ mod tests {
             ..subject()
         };
         assert_eq!(kinds(&inspection, &reported), ["reported_wrong"]);
+        for (verdict, expected) in [
+            (SurfaceVerdict::Scrap, &["surface"][..]),
+            (SurfaceVerdict::NotJudged, &[]),
+        ] {
+            inspection.surface = Some(Arc::new(SurfaceCheck {
+                verdict,
+                not_judged: None,
+                deviation: None,
+                regions: Vec::new(),
+            }));
+            assert_eq!(kinds(&inspection, &current), expected);
+        }
         let Some(Ok(pose)) = &mut inspection.pose else {
             panic!("a pose");
         };

@@ -34,6 +34,13 @@ pub enum SurfaceVerdict {
     Scrap,
 }
 
+impl SurfaceVerdict {
+    /// True if something exceeds its tolerance.
+    pub fn is_bad(self) -> bool {
+        matches!(self, Self::Rework | Self::Scrap)
+    }
+}
+
 impl Described for SurfaceVerdict {
     fn message(&self) -> Message {
         Message::new(match self {

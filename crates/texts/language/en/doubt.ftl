@@ -37,6 +37,9 @@ doubt-old = the capture is more than 10 minutes old, or of unknown age
 doubt-ambiguous-pose = another pose of the part fits nearly as well
     .advice = Turn the part's face to the camera, all of it inside the picture; if it looks the same either way round, enrol and inspect it with something in view that tells the two apart, such as a bracket or a cut-out
     .past = another pose of the part fitted nearly as well
+doubt-surface = the part's surface is not good
+    .advice = Look at the regions that the inspection rings, and rework the part or take it off
+    .past = the part's surface was not good
 # Otherwise the text is pose-off-scale
 doubt-off-scale =
     .past = the part was larger or smaller than its reference
