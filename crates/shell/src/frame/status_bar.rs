@@ -17,6 +17,7 @@ use crate::{
     cell::{
         RobotAction, RobotCell, RobotPage,
         answering::{clock, in_words},
+        operators_warning,
     },
     language::drift_warning,
     session::{Session, UserRole, WorkspaceKind},
@@ -222,23 +223,15 @@ fn robots(session: &Session, robot: &RobotCell) -> Item {
             let word = match (mark, last) {
                 (Mark::Bad, _) => text!("status-not-answered"),
                 (Mark::Look, _) => text!("status-no-frames"),
+                (Mark::Open, _) => text!("status-robots-start"),
                 (_, Some(last)) => format!("{} {}", clock(last.at), last.answer.verdict.name()),
                 (_, None) => text!("status-listens"),
             };
-            // What an operator does about it.
-            let needs_pose = session.robot.is_none();
-            let is_followed = session.source.followed().is_some();
-            let (says, advice) = match (session.role, mark) {
-                (UserRole::Operator, Mark::Bad | Mark::Look) if needs_pose => {
-                    (text!("operator-robots-without-pose"), String::new())
-                }
-                (UserRole::Operator, Mark::Look) if is_followed => {
-                    (text!("operator-robots-without-frames"), String::new())
-                }
-                (UserRole::Operator, Mark::Look) => {
-                    (text!("operator-robots-without-source"), String::new())
-                }
-                _ => (words, answering.advice(session)),
+            // In the words in which the operator's view tells it in large letters.
+            let told = operators_warning(session).filter(|_| session.role == UserRole::Operator);
+            let (says, advice) = match told {
+                Some(told) => (told, String::new()),
+                None => (words, answering.advice(session)),
             };
             let item = Item::new(Topic::Robots, mark, word, says);
             let problem = answering.problem().map(|problem| problem.what.clone());
