@@ -13,7 +13,7 @@ use egui::{
 };
 
 use crate::{
-    action::Action,
+    action::{Action, Event},
     cell::{
         RobotAction, RobotCell, RobotPage,
         answering::{clock, in_words},
@@ -324,7 +324,7 @@ fn drift(session: &Session) -> Option<Item> {
         text!("status-drift"),
         warning.what,
     );
-    let to_statistics = Action::GoTo(WorkspaceKind::History);
+    let to_statistics = Action::Tell(Event::Drift(first.part.clone()));
     Some(item.then(warning.advice).leads_to(Some(to_statistics)))
 }
 
@@ -496,8 +496,9 @@ mod tests {
     use egui::{RawInput, Shape};
 
     use super::*;
-    use crate::source::live::LiveStatus;
+    use crate::{session::DriftingPart, source::live::LiveStatus};
     use inspection::pipeline::live::{InspectionRate, LiveVerdict};
+    use records::history::{DriftQuantity, DriftWarning};
     use ui::{language::Language, task::TaskRunner, theme::ThemeChoice};
 
     fn robot() -> RobotCell {
@@ -589,6 +590,29 @@ mod tests {
                 matches!(robots.action, Some(Action::Robot(RobotAction::Show(shown))) if shown == page)
             );
         }
+    }
+
+    #[test]
+    fn of_several_drifts_the_one_that_refuses_first_is_told_and_leads_to_its_statistics() {
+        let mut session = Session::default();
+        for (part, refuses_in) in [("fender", 40), ("grille", 12), ("hood", 60)] {
+            session.shift.drifting.push(DriftingPart {
+                part: part.into(),
+                title: part.to_uppercase(),
+                warning: DriftWarning {
+                    quantity: DriftQuantity::Score,
+                    limit: 0.9,
+                    refuses_in,
+                },
+            });
+        }
+        let drift = item(&session, Topic::Drift);
+        assert_eq!(drift.mark, Mark::Look);
+        assert!(drift.says.starts_with("GRILLE drifts"), "{}", drift.says);
+        assert!(drift.says.contains("after 12 more"), "{}", drift.says);
+        assert!(
+            matches!(&drift.action, Some(Action::Tell(Event::Drift(part))) if part == "grille")
+        );
     }
 
     /// The texts of the bar in a window of this width.
