@@ -41,6 +41,6 @@ pub use self::{
 pub use self::{
     evaluation_report::EvaluationReport,
     line::{CaptureLine, InspectionLine, SCHEMA, ScanLine, TimingsLine},
-    problem::{ProblemReport, compared_entries},
+    problem::{ProblemReport, SETTINGS_FILE, compared_entries},
     text_table::TextTable,
 };
