@@ -75,11 +75,14 @@ pub(super) fn run(
     let filter = asked.filter.filter();
     let parts = accepted_parts(history, &filter)?;
     // Without its references the position of a part is not known, and the rest is.
-    let loaded = asked
-        .library
-        .load(&ReferenceParams::default(), console)
-        .ok();
-    let library = loaded.map(|(_, load)| load.library);
+    let library = match asked.library.load(&ReferenceParams::default(), console) {
+        Ok((_, load)) => Some(load.library),
+        Err(error) => {
+            console.error(&error);
+            console.note(&"the position of the parts is left out");
+            None
+        }
+    };
     let mut found = Vec::new();
     for part in parts {
         let of_part = Filter {
