@@ -9,12 +9,13 @@ use super::{FilterArgs, show::SCHEMA};
 use crate::cli::{
     LibraryChoice, Outcome,
     console::{Advised as _, Console, Table},
+    plant,
 };
 use geometry::units::Metres;
 use inspection::library::Library;
 use records::history::{
-    DriftQuantity, Filter, History, LEAST_FOR_SPREAD, Limit, MAX_POSES, PartDrift, QuantityDrift,
-    StoredVerdict, Trend,
+    DriftQuantity, Filter, History, LEAST_FOR_SPREAD, Limit, MAX_POSES, PartDrift, PoseRecord,
+    QuantityDrift, StoredVerdict, Trend,
 };
 use stages::reference::ReferenceParams;
 
@@ -22,12 +23,14 @@ use stages::reference::ReferenceParams;
 #[derive(Debug, Args)]
 pub(in crate::cli) struct DriftArgs {
     #[command(flatten)]
-    filter: FilterArgs,
+    pub(in crate::cli) filter: FilterArgs,
     /// Write one line of JSON per part, and nothing else, to standard output
     #[arg(long)]
     json: bool,
     #[command(flatten)]
     library: LibraryChoice,
+    #[command(flatten)]
+    pub(in crate::cli) from: plant::FromChoice,
 }
 
 /// A part as `--json` writes it.
@@ -38,6 +41,9 @@ struct PartLine<'a> {
     /// Number of inspections that were compared.
     inspections: usize,
     quantities: Vec<QuantityLine>,
+    /// Name of the cell, if there are several cells.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cell: Option<&'a str>,
 }
 
 #[derive(Serialize)]
@@ -67,13 +73,54 @@ impl QuantityLine {
     }
 }
 
+/// The accepted inspections of a part.
+pub(in crate::cli) struct PartPoses {
+    /// Name of the cell, if there are several cells.
+    pub(in crate::cli) cell: Option<String>,
+    /// Name of the part.
+    pub(in crate::cli) part: String,
+    /// The oldest first.
+    pub(in crate::cli) poses: Vec<PoseRecord>,
+}
+
+impl PartPoses {
+    /// Name of the part for a person.
+    fn name(&self) -> String {
+        match &self.cell {
+            Some(cell) => format!("{} at {cell}", self.part),
+            None => self.part.clone(),
+        }
+    }
+}
+
 pub(super) fn run(
     history: &History,
     asked: &DriftArgs,
     console: &mut Console,
 ) -> anyhow::Result<Outcome> {
     let filter = asked.filter.filter();
-    let parts = accepted_parts(history, &filter)?;
+    let mut all = Vec::new();
+    for part in accepted_parts(history, &filter)? {
+        let of_part = Filter {
+            part: Some(part.clone()),
+            ..filter.clone()
+        };
+        let poses = history.poses(&of_part, MAX_POSES).advised()?;
+        all.push(PartPoses {
+            cell: None,
+            part,
+            poses,
+        });
+    }
+    Ok(answer(&all, asked, console))
+}
+
+/// Shows the drift of these parts.
+pub(in crate::cli) fn answer(
+    all: &[PartPoses],
+    asked: &DriftArgs,
+    console: &mut Console,
+) -> Outcome {
     // Without its references the position of a part is not known, and the rest is.
     let library = match asked.library.load(&ReferenceParams::default(), console) {
         Ok((_, load)) => Some(load.library),
@@ -83,25 +130,20 @@ pub(super) fn run(
             None
         }
     };
-    let mut found = Vec::new();
-    for part in parts {
-        let of_part = Filter {
-            part: Some(part.clone()),
-            ..filter.clone()
-        };
-        let poses = history.poses(&of_part, MAX_POSES).advised()?;
-        let drift = PartDrift::of(&poses, |name| middle_of(name, library.as_ref()?));
-        found.extend(drift.map(|drift| (part, drift)));
-    }
+    let middle_of = |name: &str| middle_of(name, library.as_ref()?);
+    let found = all
+        .iter()
+        .filter_map(|of| Some((of, PartDrift::of(&of.poses, middle_of)?)));
+    let found: Vec<(&PartPoses, PartDrift)> = found.collect();
     if asked.json {
-        for (part, drift) in &found {
-            console.line(&line_of(part, drift));
+        for (of, drift) in &found {
+            console.line(&line_of(of, drift));
         }
     } else {
         show(&found, console);
     }
     let warned = found.iter().any(|(_, drift)| drift.warning().is_some());
-    Ok(Outcome::accepted_if(!warned))
+    Outcome::accepted_if(!warned)
 }
 
 fn middle_of(name: &str, library: &Library) -> Option<nalgebra::Point3<f64>> {
@@ -123,21 +165,23 @@ fn accepted_parts(history: &History, filter: &Filter) -> anyhow::Result<Vec<Stri
     Ok(parts.into_iter().map(|(part, _)| part).collect())
 }
 
-fn line_of(part: &str, drift: &PartDrift) -> String {
+fn line_of(of: &PartPoses, drift: &PartDrift) -> String {
     let line = PartLine {
         schema: SCHEMA,
-        part,
+        part: &of.part,
         inspections: drift.at.len(),
         quantities: drift.quantities.iter().map(QuantityLine::of).collect(),
+        cell: of.cell.as_deref(),
     };
     serde_json::to_string(&line).expect("numbers and text have a JSON form")
 }
 
-fn show(found: &[(String, PartDrift)], console: &mut Console) {
+fn show(found: &[(&PartPoses, PartDrift)], console: &mut Console) {
     let mut table = Table::new(&[
         "PART", "QUANTITY", "NUMBER", "MEAN", "3σ FROM", "TO", "LIMIT", "TREND",
     ]);
     for (part, drift) in found {
+        let name = part.name();
         for of in &drift.quantities {
             let written = |value: f64| written(of.quantity, value);
             let [low, high] = of.band;
@@ -147,7 +191,7 @@ fn show(found: &[(String, PartDrift)], console: &mut Console) {
                 format!("{} to {} in {over}", written(from), written(to))
             });
             table.row([
-                part.clone(),
+                name.clone(),
                 title(of.quantity).to_owned(),
                 drift.at.len().to_string(),
                 written(of.mean),
@@ -170,7 +214,8 @@ fn show(found: &[(String, PartDrift)], console: &mut Console) {
         };
         console.advise(
             &format_args!(
-                "warning: {part} drifts: at this trend, single parts are refused after {} more inspections ({}, limit {})",
+                "warning: {} drifts: at this trend, single parts are refused after {} more inspections ({}, limit {})",
+                part.name(),
                 warning.refuses_in,
                 title(warning.quantity),
                 written(warning.quantity, warning.limit)

@@ -89,8 +89,8 @@ impl PoseRecord {
         })
     }
 
-    /// Reads an inspection that is not in the file yet.
-    pub(super) fn of_record(record: &Record) -> Option<Self> {
+    /// Reads an inspection as it is written; `None` unless it was accepted with a score and a pose that can be read.
+    pub fn of_record(record: &Record) -> Option<Self> {
         let Record { summary, detail } = record;
         let [score, _] = summary.score?;
         let is_accepted = summary.verdict == StoredVerdict::Accepted;
