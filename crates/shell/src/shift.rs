@@ -9,10 +9,7 @@ use jiff::{Timestamp, Zoned};
 
 use crate::session::{DriftingPart, Session, ShiftParts, Source, UserRole};
 use geometry::error::lock;
-use records::history::{
-    Filter, HistoryBuffer, HistoryError, HungId, POSES_FOR_WARNING, PartDrift, PartOutcome,
-    StoredVerdict,
-};
+use records::history::{Filter, HistoryBuffer, HistoryError, HungId, PartOutcome, StoredVerdict};
 use ui::{
     language::text,
     task::{Task, TaskRunner},
@@ -218,9 +215,7 @@ fn drifting(
         part: Some(part.clone()),
         ..accepted
     };
-    let poses = history.poses(&of_part, POSES_FOR_WARNING)?;
-    // No limit is about the position.
-    let warning = PartDrift::of(&poses, |_| None).and_then(|drift| drift.warning());
+    let warning = history.drift_warning(&of_part)?;
     known.extend(warning.map(|warning| DriftingPart {
         part,
         title,

@@ -1,7 +1,5 @@
 //! `partsight history drift`: mean, spread and trend of parts, and which will be refused.
 
-use std::{cmp::Reverse, collections::BTreeMap};
-
 use clap::Args;
 use serde::Serialize;
 
@@ -12,10 +10,9 @@ use crate::cli::{
     plant,
 };
 use geometry::units::Metres;
-use inspection::library::Library;
 use records::history::{
     DriftQuantity, Filter, History, LEAST_FOR_SPREAD, Limit, MAX_POSES, PartDrift, PoseRecord,
-    QuantityDrift, StoredVerdict, Trend,
+    QuantityDrift, Trend, accepted_parts,
 };
 use stages::reference::ReferenceParams;
 
@@ -100,7 +97,7 @@ pub(super) fn run(
 ) -> anyhow::Result<Outcome> {
     let filter = asked.filter.filter();
     let mut all = Vec::new();
-    for part in accepted_parts(history, &filter)? {
+    for part in accepted_parts(&history.outcomes(&filter).advised()?) {
         let of_part = Filter {
             part: Some(part.clone()),
             ..filter.clone()
@@ -130,7 +127,7 @@ pub(in crate::cli) fn answer(
             None
         }
     };
-    let middle_of = |name: &str| middle_of(name, library.as_ref()?);
+    let middle_of = |name: &str| library.as_ref()?.middle_of(name);
     let found = all
         .iter()
         .filter_map(|of| Some((of, PartDrift::of(&of.poses, middle_of)?)));
@@ -144,25 +141,6 @@ pub(in crate::cli) fn answer(
     }
     let warned = found.iter().any(|(_, drift)| drift.warning().is_some());
     Outcome::accepted_if(!warned)
-}
-
-fn middle_of(name: &str, library: &Library) -> Option<nalgebra::Point3<f64>> {
-    let mut references = library.references.iter();
-    references.find(|of| of.enrolled_as == name)?.middle()
-}
-
-/// Names of the accepted parts, the one accepted most often first.
-fn accepted_parts(history: &History, filter: &Filter) -> anyhow::Result<Vec<String>> {
-    let outcomes = history.outcomes(filter).advised()?;
-    let mut counts: BTreeMap<String, usize> = BTreeMap::new();
-    for outcome in outcomes {
-        if let (StoredVerdict::Accepted, Some(part)) = (outcome.verdict, outcome.part) {
-            *counts.entry(part).or_default() += 1;
-        }
-    }
-    let mut parts: Vec<(String, usize)> = counts.into_iter().collect();
-    parts.sort_by_key(|(_, num)| Reverse(*num));
-    Ok(parts.into_iter().map(|(part, _)| part).collect())
 }
 
 fn line_of(of: &PartPoses, drift: &PartDrift) -> String {

@@ -1,6 +1,6 @@
 //! Outcomes of parts for statistics: one per part, without the data for opening an inspection.
 
-use std::collections::BTreeMap;
+use std::{cmp::Reverse, collections::BTreeMap};
 
 use jiff::Timestamp;
 use rusqlite::{params_from_iter, types::Value};
@@ -35,6 +35,20 @@ impl PartOutcome {
     pub fn is_judged(&self) -> bool {
         is_judged(self.reason.as_ref())
     }
+}
+
+/// Names of the accepted parts, the one accepted most often first.
+pub fn accepted_parts(outcomes: &[PartOutcome]) -> Vec<String> {
+    let accepted = outcomes
+        .iter()
+        .filter(|outcome| outcome.verdict == StoredVerdict::Accepted);
+    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+    for part in accepted.filter_map(|outcome| outcome.part.as_deref()) {
+        *counts.entry(part).or_default() += 1;
+    }
+    let mut parts: Vec<(&str, usize)> = counts.into_iter().collect();
+    parts.sort_by_key(|(_, num)| Reverse(*num));
+    parts.into_iter().map(|(part, _)| part.to_owned()).collect()
 }
 
 impl From<&Record> for PartOutcome {

@@ -20,7 +20,7 @@ use serde::Serialize;
 use geometry::statistics::lower_median;
 
 /// Newest values that a trend is looked for in.
-pub const TREND_WINDOW: usize = 100;
+pub(super) const TREND_WINDOW: usize = 100;
 /// Fewest values that can have a trend.
 const LEAST_FOR_TREND: usize = 30;
 /// Least significance of a trend, in standard deviations of the count of pairs without a trend.

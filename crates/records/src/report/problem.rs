@@ -54,7 +54,10 @@ impl ProblemReport<'_> {
         let mut not_enclosed = Vec::new();
         for name in self.entries {
             let Some(library) = self.library else {
-                break;
+                not_enclosed.push(format!(
+                    "the library entry {name}: the library is not there"
+                ));
+                continue;
             };
             match library.contents_of(name) {
                 Ok(contents) => {

@@ -12,12 +12,12 @@ use super::{
     action::{HistoryAction, HistoryFile, HistoryJob},
     drift::Drift,
     filter::ListFilter,
-    statistics::{self, Statistics, StatisticsView, accepted_parts},
+    statistics::{self, Statistics, StatisticsView},
     work::{self, HistoryQuery, HistoryResult, OpenedInspection, RunsView, former_title},
 };
 
 use inspection::library::Truth;
-use records::history::{Differences, HungId, Page, Retention, Summary, Usage};
+use records::history::{Differences, HungId, Page, Retention, Summary, Usage, accepted_parts};
 use shell::{
     file_dialog::FileDialog, inspection::inspected::Inspected, notice::Notice,
     workspace::ShellContext,

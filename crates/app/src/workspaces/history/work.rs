@@ -14,9 +14,9 @@ use inspection::library::Library;
 use records::{
     cases::{CaseFolder, PastCases, TruthFrom},
     history::{
-        DriftWarning, Filter, HistoryBuffer, HistoryError, MAX_POSES, POSES_FOR_WARNING, Page,
-        PartDrift, PartOutcome, Record, Retention, ServoRecord, ServoRun, StoredVerdict, Summary,
-        Usage, write_servo_table, write_table,
+        DriftWarning, Filter, HistoryBuffer, HistoryError, MAX_POSES, Page, PartDrift, PartOutcome,
+        Record, Retention, ServoRecord, ServoRun, StoredVerdict, Summary, Usage, write_servo_table,
+        write_table,
     },
 };
 use ui::{language::text, user_error::UserError};
@@ -181,9 +181,7 @@ pub(super) fn drift_warnings(
             part: Some(part.clone()),
             ..filter.clone()
         };
-        let poses = history.poses(&of_part, POSES_FOR_WARNING)?;
-        // No limit is about the position.
-        let warning = PartDrift::of(&poses, |_| None).and_then(|drift| drift.warning());
+        let warning = history.drift_warning(&of_part)?;
         warnings.extend(warning.map(|warning| (part.clone(), warning)));
     }
     Ok(warnings)
@@ -201,10 +199,7 @@ pub(super) fn drift(
         ..filter
     };
     let poses = history.poses(&of_part, MAX_POSES)?;
-    Ok(PartDrift::of(&poses, |name| {
-        let mut references = library.references.iter();
-        references.find(|of| of.enrolled_as == name)?.middle()
-    }))
+    Ok(PartDrift::of(&poses, |name| library.middle_of(name)))
 }
 
 fn opened(record: Record, history: &HistoryBuffer) -> Result<OpenedInspection, HistoryError> {

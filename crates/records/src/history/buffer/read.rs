@@ -2,7 +2,7 @@
 
 use super::{HistoryBuffer, Inner};
 use crate::history::{
-    drift::PoseRecord,
+    drift::{DriftWarning, POSES_FOR_WARNING, PartDrift, PoseRecord},
     entry::{Record, Summary, png_of},
     error::HistoryError,
     filter::Filter,
@@ -160,6 +160,13 @@ impl HistoryBuffer {
         let mut poses = self.with_waiting(filter, written, PoseRecord::of_record)?;
         poses.drain(..poses.len().saturating_sub(most));
         Ok(poses)
+    }
+
+    /// The trend that will refuse the part of this filter, going by its newest inspections; `None` if none will.
+    pub fn drift_warning(&self, of_part: &Filter) -> Result<Option<DriftWarning>, HistoryError> {
+        let poses = self.poses(of_part, POSES_FOR_WARNING)?;
+        // No limit is about the position.
+        Ok(PartDrift::of(&poses, |_| None).and_then(|drift| drift.warning()))
     }
 
     /// Returns the written items, then those of the waiting inspections that match the filter.
