@@ -39,6 +39,19 @@ impl HistoryBuffer {
         })
     }
 
+    /// As [`History::newest`], including inspections that are not written yet.
+    pub fn newest(&self, filter: &Filter, most: usize) -> Result<Vec<Summary>, HistoryError> {
+        let mut inner = self.lock();
+        self.look(&mut inner);
+        let waiting = waiting_rows(&inner.waiting, inner.history.as_ref())?;
+        let waiting = waiting.into_iter().rev().filter(|row| filter.passes(row));
+        let mut rows: Vec<Summary> = waiting.take(most).collect();
+        if let Some(history) = &inner.history {
+            rows.extend(history.newest(filter, most - rows.len())?);
+        }
+        Ok(rows)
+    }
+
     /// Returns runs of servoing, waiting ones above written ones.
     pub fn servo_runs(
         &self,
