@@ -97,7 +97,7 @@ pub(super) fn run(
 ) -> anyhow::Result<Outcome> {
     let filter = asked.filter.filter();
     let mut all = Vec::new();
-    for part in accepted_parts(&history.outcomes(&filter).advised()?) {
+    for (part, _) in accepted_parts(&history.outcomes(&filter).advised()?) {
         let of_part = Filter {
             part: Some(part.clone()),
             ..filter.clone()

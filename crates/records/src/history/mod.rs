@@ -73,7 +73,7 @@ pub use self::{
     store::{History, Page},
     table::write_table,
     traceability::{TraceChange, Traceability},
-    trend::{Limit, Trend},
+    trend::{LEAST_FOR_TREND, Limit, Trend},
     writer::Writer,
 };
 pub use self::{

@@ -37,8 +37,8 @@ impl PartOutcome {
     }
 }
 
-/// Names of the accepted parts, the one accepted most often first.
-pub fn accepted_parts(outcomes: &[PartOutcome]) -> Vec<String> {
+/// Names of the accepted parts and how often each was accepted, the most frequent first.
+pub fn accepted_parts(outcomes: &[PartOutcome]) -> Vec<(String, usize)> {
     let accepted = outcomes
         .iter()
         .filter(|outcome| outcome.verdict == StoredVerdict::Accepted);
@@ -46,9 +46,11 @@ pub fn accepted_parts(outcomes: &[PartOutcome]) -> Vec<String> {
     for part in accepted.filter_map(|outcome| outcome.part.as_deref()) {
         *counts.entry(part).or_default() += 1;
     }
-    let mut parts: Vec<(&str, usize)> = counts.into_iter().collect();
+    let counts = counts.into_iter();
+    let mut parts: Vec<(String, usize)> =
+        counts.map(|(part, num)| (part.to_owned(), num)).collect();
     parts.sort_by_key(|(_, num)| Reverse(*num));
-    parts.into_iter().map(|(part, _)| part.to_owned()).collect()
+    parts
 }
 
 impl From<&Record> for PartOutcome {

@@ -442,7 +442,8 @@ impl HistoryState {
                 found.warnings = warnings
                     .map(|(part, warning)| (title_of(&part), warning))
                     .collect();
-                if let Some(part) = filter.part.as_ref().or(accepted.first()) {
+                let most = accepted.first().map(|(part, _)| part);
+                if let Some(part) = filter.part.as_ref().or(most) {
                     let drift = work::drift(part, counted, &keeper, &libraries.get().library);
                     let drift = drift.map_err(|error| UserError::of(&error))?;
                     found.drift =

@@ -14,9 +14,9 @@ use inspection::library::Library;
 use records::{
     cases::{CaseFolder, PastCases, TruthFrom},
     history::{
-        DriftWarning, Filter, HistoryBuffer, HistoryError, MAX_POSES, Page, PartDrift, PartOutcome,
-        Record, Retention, ServoRecord, ServoRun, StoredVerdict, Summary, Usage, write_servo_table,
-        write_table,
+        DriftWarning, Filter, HistoryBuffer, HistoryError, LEAST_FOR_TREND, MAX_POSES, Page,
+        PartDrift, PartOutcome, Record, Retention, ServoRecord, ServoRun, StoredVerdict, Summary,
+        Usage, write_servo_table, write_table,
     },
 };
 use ui::{language::text, user_error::UserError};
@@ -169,14 +169,18 @@ pub(super) fn former_title(history: &HistoryBuffer, name: &str) -> String {
 /// Parts that are looked after, those accepted most often.
 const MAX_WATCHED: usize = 50;
 
-/// The parts of these names that a trend will refuse, of those that match the filter.
+/// Which of these parts, named with how often they were accepted, a trend will refuse, by the inspections that match the filter.
 pub(super) fn drift_warnings(
-    parts: &[String],
+    accepted: &[(String, usize)],
     filter: &Filter,
     history: &HistoryBuffer,
 ) -> Result<Vec<(String, DriftWarning)>, HistoryError> {
     let mut warnings = Vec::new();
-    for part in parts.iter().take(MAX_WATCHED) {
+    // To find few inspections of a part takes longest.
+    let frequent = accepted
+        .iter()
+        .take_while(|(_, num)| *num >= LEAST_FOR_TREND);
+    for (part, _) in frequent.take(MAX_WATCHED) {
         let of_part = Filter {
             part: Some(part.clone()),
             ..filter.clone()
