@@ -355,7 +355,7 @@ pub fn ui(ui: &mut Ui, state: &State, robot: &RobotCell, actions: &mut Vec<Actio
         ui.spacing_mut().item_spacing.x = 0.0;
         ui.horizontal_centered(|ui| {
             let shares: f32 = bar.items.iter().map(|item| item.topic.share()).sum();
-            let per_share = ui.available_width() / shares;
+            let per_share = ui.available_width().max(0.0) / shares;
             for item in bar.items {
                 let size = vec2(item.topic.share() * per_share, space::TARGET);
                 let response = draw(ui, &item, size);
