@@ -1,7 +1,7 @@
 //! `partsight history`: lists, shows and exports past inspections.
 
 mod again;
-mod drift;
+pub(super) mod drift;
 mod export;
 mod moments;
 mod runs;

@@ -117,6 +117,7 @@ status-robots-off = Roboter aus
 status-robots-off-says = Kein Roboter erhält Antwort: Das Antworten ist ausgeschaltet
 status-not-answered = keine Antwort
 status-no-frames = keine Bilder
+status-robots-start = startet
 status-listens = bereit
 status-last-answer = Letzte Antwort: { $answer }
 status-live-off = Live aus

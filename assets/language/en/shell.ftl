@@ -117,6 +117,7 @@ status-robots-off = robots off
 status-robots-off-says = No robot is answered: answering is off
 status-not-answered = not answered
 status-no-frames = no frames
+status-robots-start = starting
 status-listens = listens
 status-last-answer = Last answer: { $answer }
 status-live-off = Live off

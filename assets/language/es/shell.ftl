@@ -117,6 +117,7 @@ status-robots-off = robots apagados
 status-robots-off-says = No se responde a ningún robot: las respuestas están apagadas
 status-not-answered = sin respuesta
 status-no-frames = sin imágenes
+status-robots-start = iniciando
 status-listens = a la escucha
 status-last-answer = Última respuesta: { $answer }
 status-live-off = En vivo apagado

@@ -102,6 +102,7 @@ status-robots-off = 未应答机器人
 status-robots-off-says = 没有机器人得到应答：应答已关闭
 status-not-answered = 无应答
 status-no-frames = 无帧
+status-robots-start = 正在启动
 status-listens = 监听中
 status-last-answer = 上次应答：{ $answer }
 status-live-off = “实时”已关

@@ -505,10 +505,16 @@ impl Window {
             }
         }
         if self.services.dialogs.takes_keys() {
-            let is_key = |event: &egui::Event| {
-                matches!(event, egui::Event::Key { .. } | egui::Event::Text(_))
+            let is_typed = |event: &egui::Event| {
+                matches!(
+                    event,
+                    egui::Event::Key { .. }
+                        | egui::Event::Text(_)
+                        | egui::Event::Paste(_)
+                        | egui::Event::Ime(_)
+                )
             };
-            ctx.input_mut(|input| input.events.retain(|event| !is_key(event)));
+            ctx.input_mut(|input| input.events.retain(|event| !is_typed(event)));
         }
         let work = self.work();
         status_bar::ui(ui, &self.state, &self.robot, &mut actions);

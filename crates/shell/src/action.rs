@@ -211,6 +211,8 @@ pub enum Event {
         /// Its true label before.
         former: Option<Truth>,
     },
+    /// Show the statistics of the part of this name, which a trend will refuse.
+    Drift(String),
     /// The user wants to undo what the last notice of this workspace offers to undo.
     Undo(WorkspaceKind),
 }

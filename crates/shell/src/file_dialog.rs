@@ -430,9 +430,16 @@ impl PathEntry {
             entry.is_folder || is_file_wanted && is_kind
         };
         let found = fs::read_dir(folder).into_iter().flatten().flatten();
-        let found = found.map(|entry| FolderEntry {
-            name: file_name(&entry.path()),
-            is_folder: entry.path().is_dir(),
+        let found = found.map(|entry| {
+            let path = entry.path();
+            // Of a folder with many captures, only links are followed.
+            let is_folder = entry
+                .file_type()
+                .is_ok_and(|kind| kind.is_dir() || kind.is_symlink() && path.is_dir());
+            FolderEntry {
+                name: file_name(&path),
+                is_folder,
+            }
         });
         let shown = found.filter(|entry| !entry.name.starts_with('.') && is_wanted(entry));
         let mut shown: Vec<FolderEntry> = shown.take(MAX_ENTRIES).collect();

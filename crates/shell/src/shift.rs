@@ -9,10 +9,7 @@ use jiff::{Timestamp, Zoned};
 
 use crate::session::{DriftingPart, Session, ShiftParts, Source, UserRole};
 use geometry::error::lock;
-use records::history::{
-    Filter, HistoryBuffer, HistoryError, HungId, POSES_FOR_WARNING, PartDrift, PartOutcome,
-    StoredVerdict,
-};
+use records::history::{Filter, HistoryBuffer, HistoryError, HungId, PartOutcome, StoredVerdict};
 use ui::{
     language::text,
     task::{Task, TaskRunner},
@@ -23,6 +20,8 @@ use ui::{
 const RETRY_DELAY_S: f64 = 10.0;
 /// Maximum number of parts listed.
 const MAX_LISTED: usize = 12;
+/// Number of the newest accepted parts, of any source, among which the last one of this source is looked for.
+const MAX_ASKED: usize = 50;
 
 /// What a count depends on.
 #[derive(Debug, PartialEq)]
@@ -180,7 +179,7 @@ fn count(
                 verdict: Some(verdict.into()),
                 ..all.clone()
             };
-            last.extend(history.page(&filter, 0, MAX_LISTED)?.rows);
+            last.extend(history.newest(&filter, MAX_LISTED)?);
         }
     }
     last.sort_by_key(|row| Reverse(row.at));
@@ -205,22 +204,22 @@ fn drifting(
         return Ok(known);
     };
     let accepted = Filter {
-        source: Some(source),
         verdict: Some(StoredVerdict::Accepted.into()),
         ..Filter::default()
     };
-    let newest = history.page(&accepted, 0, 1)?.rows.into_iter().next();
+    // The source is not in the index: of a long history, all rows would be read for one that another source has made.
+    let mut newest = history.newest(&accepted, MAX_ASKED)?.into_iter();
+    let newest = newest.find(|row| row.source == source);
     let Some((part, title)) = newest.and_then(|row| Some((row.part?, row.title))) else {
         return Ok(known);
     };
     known.retain(|of| of.part != part);
     let of_part = Filter {
         part: Some(part.clone()),
+        source: Some(source),
         ..accepted
     };
-    let poses = history.poses(&of_part, POSES_FOR_WARNING)?;
-    // No limit is about the position.
-    let warning = PartDrift::of(&poses, |_| None).and_then(|drift| drift.warning());
+    let warning = history.drift_warning(&of_part)?;
     known.extend(warning.map(|warning| DriftingPart {
         part,
         title,

@@ -136,7 +136,7 @@ pub fn tab_row<T: Copy + PartialEq>(ui: &mut Ui, tabs: &[(T, String)], shown: T)
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 0.0;
         for ((tab, title), width) in tabs.iter().zip(widths) {
-            let size = vec2(width + rest, space::TARGET);
+            let size = vec2((width + rest).max(0.0), space::TARGET);
             let (rect, response) = ui.allocate_exact_size(size, Sense::click());
             let is_shown = *tab == shown;
             let colour = if is_shown || response.hovered() {

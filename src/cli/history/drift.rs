@@ -1,7 +1,5 @@
 //! `partsight history drift`: mean, spread and trend of parts, and which will be refused.
 
-use std::{cmp::Reverse, collections::BTreeMap};
-
 use clap::Args;
 use serde::Serialize;
 
@@ -9,12 +7,12 @@ use super::{FilterArgs, show::SCHEMA};
 use crate::cli::{
     LibraryChoice, Outcome,
     console::{Advised as _, Console, Table},
+    plant,
 };
 use geometry::units::Metres;
-use inspection::library::Library;
 use records::history::{
-    DriftQuantity, Filter, History, LEAST_FOR_SPREAD, Limit, MAX_POSES, PartDrift, QuantityDrift,
-    StoredVerdict, Trend,
+    DriftQuantity, Filter, History, LEAST_FOR_SPREAD, Limit, MAX_POSES, PartDrift, PoseRecord,
+    QuantityDrift, Trend, accepted_parts,
 };
 use stages::reference::ReferenceParams;
 
@@ -22,12 +20,14 @@ use stages::reference::ReferenceParams;
 #[derive(Debug, Args)]
 pub(in crate::cli) struct DriftArgs {
     #[command(flatten)]
-    filter: FilterArgs,
+    pub(in crate::cli) filter: FilterArgs,
     /// Write one line of JSON per part, and nothing else, to standard output
     #[arg(long)]
     json: bool,
     #[command(flatten)]
     library: LibraryChoice,
+    #[command(flatten)]
+    pub(in crate::cli) from: plant::FromChoice,
 }
 
 /// A part as `--json` writes it.
@@ -38,6 +38,9 @@ struct PartLine<'a> {
     /// Number of inspections that were compared.
     inspections: usize,
     quantities: Vec<QuantityLine>,
+    /// Name of the cell, if there are several cells.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cell: Option<&'a str>,
 }
 
 #[derive(Serialize)]
@@ -67,74 +70,96 @@ impl QuantityLine {
     }
 }
 
+/// The accepted inspections of a part.
+pub(in crate::cli) struct PartPoses {
+    /// Name of the cell, if there are several cells.
+    pub(in crate::cli) cell: Option<String>,
+    /// Name of the part.
+    pub(in crate::cli) part: String,
+    /// The oldest first.
+    pub(in crate::cli) poses: Vec<PoseRecord>,
+}
+
+impl PartPoses {
+    /// Name of the part for a person.
+    fn name(&self) -> String {
+        match &self.cell {
+            Some(cell) => format!("{} at {cell}", self.part),
+            None => self.part.clone(),
+        }
+    }
+}
+
 pub(super) fn run(
     history: &History,
     asked: &DriftArgs,
     console: &mut Console,
 ) -> anyhow::Result<Outcome> {
     let filter = asked.filter.filter();
-    let parts = accepted_parts(history, &filter)?;
-    // Without its references the position of a part is not known, and the rest is.
-    let loaded = asked
-        .library
-        .load(&ReferenceParams::default(), console)
-        .ok();
-    let library = loaded.map(|(_, load)| load.library);
-    let mut found = Vec::new();
-    for part in parts {
+    let mut all = Vec::new();
+    for (part, _) in accepted_parts(&history.outcomes(&filter).advised()?) {
         let of_part = Filter {
             part: Some(part.clone()),
             ..filter.clone()
         };
         let poses = history.poses(&of_part, MAX_POSES).advised()?;
-        let drift = PartDrift::of(&poses, |name| middle_of(name, library.as_ref()?));
-        found.extend(drift.map(|drift| (part, drift)));
+        all.push(PartPoses {
+            cell: None,
+            part,
+            poses,
+        });
     }
+    Ok(answer(&all, asked, console))
+}
+
+/// Shows the drift of these parts.
+pub(in crate::cli) fn answer(
+    all: &[PartPoses],
+    asked: &DriftArgs,
+    console: &mut Console,
+) -> Outcome {
+    // Without its references the position of a part is not known, and the rest is.
+    let library = match asked.library.load(&ReferenceParams::default(), console) {
+        Ok((_, load)) => Some(load.library),
+        Err(error) => {
+            console.error(&error);
+            console.note(&"the position of the parts is left out");
+            None
+        }
+    };
+    let middle_of = |name: &str| library.as_ref()?.middle_of(name);
+    let found = all
+        .iter()
+        .filter_map(|of| Some((of, PartDrift::of(&of.poses, middle_of)?)));
+    let found: Vec<(&PartPoses, PartDrift)> = found.collect();
     if asked.json {
-        for (part, drift) in &found {
-            console.line(&line_of(part, drift));
+        for (of, drift) in &found {
+            console.line(&line_of(of, drift));
         }
     } else {
         show(&found, console);
     }
     let warned = found.iter().any(|(_, drift)| drift.warning().is_some());
-    Ok(Outcome::accepted_if(!warned))
+    Outcome::accepted_if(!warned)
 }
 
-fn middle_of(name: &str, library: &Library) -> Option<nalgebra::Point3<f64>> {
-    let mut references = library.references.iter();
-    references.find(|of| of.enrolled_as == name)?.middle()
-}
-
-/// Names of the accepted parts, the one accepted most often first.
-fn accepted_parts(history: &History, filter: &Filter) -> anyhow::Result<Vec<String>> {
-    let outcomes = history.outcomes(filter).advised()?;
-    let mut counts: BTreeMap<String, usize> = BTreeMap::new();
-    for outcome in outcomes {
-        if let (StoredVerdict::Accepted, Some(part)) = (outcome.verdict, outcome.part) {
-            *counts.entry(part).or_default() += 1;
-        }
-    }
-    let mut parts: Vec<(String, usize)> = counts.into_iter().collect();
-    parts.sort_by_key(|(_, num)| Reverse(*num));
-    Ok(parts.into_iter().map(|(part, _)| part).collect())
-}
-
-fn line_of(part: &str, drift: &PartDrift) -> String {
+fn line_of(of: &PartPoses, drift: &PartDrift) -> String {
     let line = PartLine {
         schema: SCHEMA,
-        part,
+        part: &of.part,
         inspections: drift.at.len(),
         quantities: drift.quantities.iter().map(QuantityLine::of).collect(),
+        cell: of.cell.as_deref(),
     };
     serde_json::to_string(&line).expect("numbers and text have a JSON form")
 }
 
-fn show(found: &[(String, PartDrift)], console: &mut Console) {
+fn show(found: &[(&PartPoses, PartDrift)], console: &mut Console) {
     let mut table = Table::new(&[
         "PART", "QUANTITY", "NUMBER", "MEAN", "3σ FROM", "TO", "LIMIT", "TREND",
     ]);
     for (part, drift) in found {
+        let name = part.name();
         for of in &drift.quantities {
             let written = |value: f64| written(of.quantity, value);
             let [low, high] = of.band;
@@ -144,7 +169,7 @@ fn show(found: &[(String, PartDrift)], console: &mut Console) {
                 format!("{} to {} in {over}", written(from), written(to))
             });
             table.row([
-                part.clone(),
+                name.clone(),
                 title(of.quantity).to_owned(),
                 drift.at.len().to_string(),
                 written(of.mean),
@@ -167,7 +192,8 @@ fn show(found: &[(String, PartDrift)], console: &mut Console) {
         };
         console.advise(
             &format_args!(
-                "warning: {part} drifts: at this trend, single parts are refused after {} more inspections ({}, limit {})",
+                "warning: {} drifts: at this trend, single parts are refused after {} more inspections ({}, limit {})",
+                part.name(),
                 warning.refuses_in,
                 title(warning.quantity),
                 written(warning.quantity, warning.limit)

@@ -118,6 +118,27 @@ fn an_overview_over_cells_is_listed_and_exported() {
     );
     // No data folder was created.
     assert!(!folder.path().join("data").exists());
+
+    // A part that drifts at one of the cells.
+    let mut history = open_history(&folder.path().join("0"));
+    for index in 0..60_u8 {
+        let mut entry = history_entry(200 + i64::from(index), StoredVerdict::Accepted, "hood");
+        // The log odds of a score; those of 0.9 are 2.197.
+        let log_odds = 4.0 - 0.02 * f64::from(index);
+        entry.record.summary.score = Some([1.0 / (1.0 + (-log_odds).exp()), 0.8]);
+        (entry.scene, entry.picture) = (None, None);
+        add(&mut history, &entry);
+    }
+    let whose = cell_of(&mut history, cells[0]);
+    send(&mut database, &mut history, &whose).expect("sent");
+    let drift = ["history", "drift", "--json"];
+    let [line, _] = run(folder.path(), &[&drift[..], &from].concat(), 1);
+    let line: Value = serde_json::from_str(&line).expect("one line of JSON");
+    assert_eq!(
+        (&line["cell"], &line["part"], &line["inspections"]),
+        (&json!("cell7"), &json!("hood"), &json!(60))
+    );
+    assert_eq!(line["quantities"][0]["trend"]["refuses_in"], 32);
 }
 
 #[test]

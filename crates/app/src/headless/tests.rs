@@ -151,10 +151,11 @@ fn turning_draws_less_on_a_slow_device_and_everything_at_rest() {
         thread::sleep(std::time::Duration::from_millis(70));
     }
     assert!(window.window().detail_of_view() < 1.0, "all of it is drawn");
+    // On a busy machine the view may have come to rest by the time of the release.
+    let before = window.counts().pictures;
     window.frame(vec![button(false)]);
     thread::sleep(std::time::Duration::from_millis(300));
-    let before = window.counts().pictures;
     window.frame(Vec::new());
     assert!((window.window().detail_of_view() - 1.0).abs() < 1e-6);
-    assert_eq!(window.counts().pictures, before + 1, "drawn in full");
+    assert!(window.counts().pictures > before, "drawn in full");
 }

@@ -94,7 +94,7 @@ fn a_problem_report_holds_scene_and_library_entry_and_no_address() {
         .expect("there");
     let log = String::from_utf8_lossy(log);
     assert!(
-        log.ends_with("(address) is silent Look at its cable"),
+        log.ends_with("(address):30100 is silent Look at its cable"),
         "{log}"
     );
     for (name, content) in &files {

@@ -851,7 +851,7 @@ fn statistics_count_the_listed_parts_by_shift_by_part_and_by_reason() {
 }
 
 #[test]
-fn statistics_warn_of_a_part_that_a_trend_will_refuse() {
+fn a_part_that_a_trend_will_refuse_is_warned_of_in_the_status_bar_which_leads_to_its_statistics() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut history = records::fixtures::open_history(folder.path());
     for seconds in 0..60_u8 {
@@ -866,8 +866,12 @@ fn statistics_warn_of_a_part_that_a_trend_will_refuse() {
     }
     drop(history);
     let mut harness = open_with(SMALL, keeping(folder.path()));
-    go_to_history(&mut harness);
-    press(&mut harness, "Statistics");
+    // By the title that the part had then.
+    let warning = harness.get_by_label_contains("fender drifts: ");
+    warning.click();
+    settle(&mut harness);
+    let session = &harness.state().state().session;
+    assert_eq!(session.workspace, WorkspaceKind::History);
     harness.get_by_label(
         "Fender, left drifts: at this trend, single parts are refused after 32 more inspections (Score, limit 0.900)",
     );

@@ -723,7 +723,9 @@ fn open_answering(cell: Option<PathBuf>) -> (WindowHarness, Sender<Step>) {
 fn an_operator_sees_that_robots_get_no_pose_or_after_live_no_frames() {
     let warning = "Robots get no pose: ask the engineer to calibrate the cell";
     let (harness, _wire) = open_answering(None);
-    harness.get_by_label(warning);
+    // In large letters; the status bar says the same.
+    harness.get_by_role_and_label(Role::Label, warning);
+    harness.get_by_role_and_label(Role::Button, warning);
     drop(harness);
 
     let folder = tempfile::tempdir().expect("a folder");
@@ -733,7 +735,7 @@ fn an_operator_sees_that_robots_get_no_pose_or_after_live_no_frames() {
     assert!(!shows(&harness, "Robots get no"));
     toggle(&mut harness);
     harness.run_steps(4);
-    harness.get_by_label("Robots get no frames: press Live");
+    harness.get_by_role_and_label(Role::Label, "Robots get no frames: press Live");
 }
 
 #[test]

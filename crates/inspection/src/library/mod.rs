@@ -45,6 +45,8 @@ mod truth;
 
 use std::collections::BTreeMap;
 
+use nalgebra::Point3;
+
 use stages::reference::Reference;
 
 pub use self::{
@@ -97,5 +99,11 @@ impl Library {
     /// True if a part or a reference of this name is enrolled.
     pub fn has_reference(&self, name: &str) -> bool {
         self.has_part(name) || self.references.iter().any(|one| one.enrolled_as == name)
+    }
+
+    /// The middle of the extent of the reference that is enrolled under this name, part space, metres.
+    pub fn middle_of(&self, name: &str) -> Option<Point3<f64>> {
+        let mut references = self.references.iter();
+        references.find(|one| one.enrolled_as == name)?.middle()
     }
 }

@@ -49,8 +49,8 @@ pub use self::{
     buffer::HistoryBuffer,
     differences::{Differences, InspectionSummary, ParameterChange},
     drift::{
-        DriftQuantity, DriftWarning, LEAST_FOR_SPREAD, MAX_POSES, POSES_FOR_WARNING, PartDrift,
-        PoseRecord, QuantityDrift,
+        DriftQuantity, DriftWarning, LEAST_FOR_SPREAD, MAX_POSES, PartDrift, PoseRecord,
+        QuantityDrift,
     },
     entry::{
         InspectionContext, InspectionDetail, NewEntry, Record, RobotMarks, StoredVerdict, Summary,
@@ -65,7 +65,7 @@ pub use self::{
     hung::{HungId, HungRows},
     hung_spots::{HungSpots, SpotIds},
     open::{FILE, OnlyRead, OpenedHistory, SetAside, users_folder},
-    outcomes::PartOutcome,
+    outcomes::{PartOutcome, accepted_parts},
     retention::{ACCEPTED_KEPT, KeepFrames, PruneResult, Retention, Usage},
     scene_title::SceneTitle,
     servo_run::{ServoRecord, ServoRun, ServoSample, ServoTargetKind, write_servo_table},
@@ -73,7 +73,7 @@ pub use self::{
     store::{History, Page},
     table::write_table,
     traceability::{TraceChange, Traceability},
-    trend::{Limit, TREND_WINDOW, Trend},
+    trend::{LEAST_FOR_TREND, Limit, Trend},
     writer::Writer,
 };
 pub use self::{

@@ -1,6 +1,6 @@
 //! Outcomes of parts for statistics: one per part, without the data for opening an inspection.
 
-use std::collections::BTreeMap;
+use std::{cmp::Reverse, collections::BTreeMap};
 
 use jiff::Timestamp;
 use rusqlite::{params_from_iter, types::Value};
@@ -35,6 +35,22 @@ impl PartOutcome {
     pub fn is_judged(&self) -> bool {
         is_judged(self.reason.as_ref())
     }
+}
+
+/// Names of the accepted parts and how often each was accepted, the most frequent first.
+pub fn accepted_parts(outcomes: &[PartOutcome]) -> Vec<(String, usize)> {
+    let accepted = outcomes
+        .iter()
+        .filter(|outcome| outcome.verdict == StoredVerdict::Accepted);
+    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+    for part in accepted.filter_map(|outcome| outcome.part.as_deref()) {
+        *counts.entry(part).or_default() += 1;
+    }
+    let counts = counts.into_iter();
+    let mut parts: Vec<(String, usize)> =
+        counts.map(|(part, num)| (part.to_owned(), num)).collect();
+    parts.sort_by_key(|(_, num)| Reverse(*num));
+    parts
 }
 
 impl From<&Record> for PartOutcome {

@@ -204,6 +204,13 @@ impl History {
         read().map_err(|error| self.error(error))
     }
 
+    /// Returns up to `most` matching rows, newest first, without counting the others.
+    pub fn newest(&self, filter: &Filter, most: usize) -> Result<Vec<Summary>, HistoryError> {
+        let numbers = self.numbers(filter, 0, most);
+        let rows = numbers.and_then(|numbers| self.rows(&numbers));
+        rows.map_err(|error| self.error(error))
+    }
+
     fn count_all(&self) -> rusqlite::Result<usize> {
         let asked = "SELECT count(*) FROM inspection WHERE parent IS NULL";
         let num: i64 = self.file.query_row(asked, [], |row| row.get(0))?;

@@ -20,9 +20,9 @@ use serde::Serialize;
 use geometry::statistics::lower_median;
 
 /// Newest values that a trend is looked for in.
-pub const TREND_WINDOW: usize = 100;
+pub(super) const TREND_WINDOW: usize = 100;
 /// Fewest values that can have a trend.
-const LEAST_FOR_TREND: usize = 30;
+pub const LEAST_FOR_TREND: usize = 30;
 /// Least significance of a trend, in standard deviations of the count of pairs without a trend.
 const MIN_SIGNIFICANCE: f64 = 4.0;
 /// The same for the newer half of the values.

@@ -42,7 +42,7 @@ pub use self::{
 pub use self::{
     evaluation_report::EvaluationReport,
     line::{CaptureLine, InspectionLine, SCHEMA, ScanLine, TimingsLine},
-    problem::{ProblemReport, compared_entries},
+    problem::{ProblemReport, SETTINGS_FILE, compared_entries},
     surface_line::{MeasuredLine, RegionLine, SurfaceLine},
     text_table::TextTable,
 };

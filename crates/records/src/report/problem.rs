@@ -14,6 +14,9 @@ use stages::scene::SceneCloud;
 /// Name of the recipe in a report: that of a built-in recipe would be refused with other parameters.
 const RECIPE: &str = "reported";
 
+/// Name of the settings of the window in a report.
+pub const SETTINGS_FILE: &str = "settings.toml";
+
 /// The content of a problem report. No text in it may hold a token, a password or the address of a robot.
 pub struct ProblemReport<'a> {
     /// The scene, if there is one.
@@ -51,7 +54,10 @@ impl ProblemReport<'_> {
         let mut not_enclosed = Vec::new();
         for name in self.entries {
             let Some(library) = self.library else {
-                break;
+                not_enclosed.push(format!(
+                    "the library entry {name}: the library is not there"
+                ));
+                continue;
             };
             match library.contents_of(name) {
                 Ok(contents) => {
@@ -88,25 +94,29 @@ impl ProblemReport<'_> {
         let is_json = |path: &str| Path::new(path).extension().is_some_and(|end| end == "json");
         let is_scene = |path: &str| path.starts_with("scene/scene.") && !is_json(path);
         let is_cell = |path: &str| path.starts_with("scene/empty-cell");
+        let is_of_library = |path: &str| path.starts_with("library/");
         let path_of = |is_it: &dyn Fn(&str) -> bool| {
             let mut paths = files.iter().map(|(path, _)| path.as_str());
             paths.find(|path| is_it(path))
         };
         if let Some(scene) = path_of(&is_scene) {
-            let library = if self.entries.len() == not_enclosed.len() {
-                ""
-            } else {
-                " --library library"
-            };
+            let library = path_of(&is_of_library).map_or("", |_| " --library library");
             let cell = path_of(&is_cell).map(|cell| format!(" --empty-cell {cell}"));
             let cell = cell.unwrap_or_default();
             // Writing to memory cannot fail.
             let _ = writeln!(
                 text,
                 "To inspect its scene again, unpack it and run there:\n\n    \
-                 partsight inspect {scene}{library} --recipe recipe.toml{cell}\n\n\
-                 A rack is in settings.toml, not in the recipe."
+                 partsight inspect {scene}{library} --recipe recipe.toml{cell}\n"
             );
+        }
+        if !self.recipe.rack.is_empty() {
+            let is_remembered = self.texts.iter().any(|(name, _)| *name == SETTINGS_FILE);
+            text.push_str(if is_remembered {
+                "The rack that it hung in is in settings.toml.\n"
+            } else {
+                "It hung in a rack, which is not enclosed: ask for its file, and add --rack FILE.\n"
+            });
         }
         for reason in not_enclosed {
             let _ = writeln!(text, "Not enclosed: {reason}");

@@ -237,6 +237,20 @@ impl Answering {
     }
 }
 
+/// Why robots that are to be answered get no pose or no frames, and what an operator does about it; `None` if they get both.
+pub fn operators_warning(session: &Session) -> Option<String> {
+    if !session.answering.is_on || session.robot.is_some() && session.is_live() {
+        return None;
+    }
+    Some(if session.robot.is_none() {
+        text!("operator-robots-without-pose")
+    } else if session.source.followed().is_some() {
+        text!("operator-robots-without-frames")
+    } else {
+        text!("operator-robots-without-source")
+    })
+}
+
 /// Returns where a server is to listen, and the robot frame; `None` if there is to be none. Without a calibration no pose can
 /// be given in the robot's frame.
 fn wanted(session: &Session) -> Option<(Listener, Arc<RobotFrame>)> {

@@ -11,7 +11,7 @@ mod setup;
 pub mod state;
 
 pub use self::{
-    answering::{Answering, AnsweringStatus, LastAnswer},
+    answering::{Answering, AnsweringStatus, LastAnswer, operators_warning},
     cell_check::{CellChecks, CheckFolderContent},
     dialog_state::{
         CellInUse, CheckAction, RobotAction, RobotDialog, RobotFile, RobotPage, RobotResult,

@@ -8,10 +8,9 @@ use crate::{
     rack::RackAction,
     roles::{self, RoleAction},
     session::WorkspaceKind,
-    source::live::LiveAction,
+    source::{live::LiveAction, source_menu},
     state::State,
 };
-use capture::SimulatedSpec;
 use ui::{
     key_binding::{CTRL_SHIFT, KeyBinding, Shortcut},
     language::{Language, keys, text},
@@ -249,7 +248,9 @@ pub(crate) fn without_keys(state: &State) -> Vec<KeyLine> {
         (text!("rack-says"), Action::Rack(RackAction::Toggle)),
         (
             text!("shell-set-up-cell"),
-            Action::Live(LiveAction::SetUp(Some(SimulatedSpec::default()))),
+            Action::Live(LiveAction::SetUp(Some(source_menu::cell_in_use(
+                &state.session.source,
+            )))),
         ),
     ];
     let of_engineer = of_engineer.into_iter();

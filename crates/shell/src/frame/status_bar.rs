@@ -13,10 +13,11 @@ use egui::{
 };
 
 use crate::{
-    action::Action,
+    action::{Action, Event},
     cell::{
         RobotAction, RobotCell, RobotPage,
         answering::{clock, in_words},
+        operators_warning,
     },
     language::drift_warning,
     session::{Session, UserRole, WorkspaceKind},
@@ -222,23 +223,15 @@ fn robots(session: &Session, robot: &RobotCell) -> Item {
             let word = match (mark, last) {
                 (Mark::Bad, _) => text!("status-not-answered"),
                 (Mark::Look, _) => text!("status-no-frames"),
+                (Mark::Open, _) => text!("status-robots-start"),
                 (_, Some(last)) => format!("{} {}", clock(last.at), last.answer.verdict.name()),
                 (_, None) => text!("status-listens"),
             };
-            // What an operator does about it.
-            let needs_pose = session.robot.is_none();
-            let is_followed = session.source.followed().is_some();
-            let (says, advice) = match (session.role, mark) {
-                (UserRole::Operator, Mark::Bad | Mark::Look) if needs_pose => {
-                    (text!("operator-robots-without-pose"), String::new())
-                }
-                (UserRole::Operator, Mark::Look) if is_followed => {
-                    (text!("operator-robots-without-frames"), String::new())
-                }
-                (UserRole::Operator, Mark::Look) => {
-                    (text!("operator-robots-without-source"), String::new())
-                }
-                _ => (words, answering.advice(session)),
+            // In the words in which the operator's view tells it in large letters.
+            let told = operators_warning(session).filter(|_| session.role == UserRole::Operator);
+            let (says, advice) = match told {
+                Some(told) => (told, String::new()),
+                None => (words, answering.advice(session)),
             };
             let item = Item::new(Topic::Robots, mark, word, says);
             let problem = answering.problem().map(|problem| problem.what.clone());
@@ -331,7 +324,7 @@ fn drift(session: &Session) -> Option<Item> {
         text!("status-drift"),
         warning.what,
     );
-    let to_statistics = Action::GoTo(WorkspaceKind::History);
+    let to_statistics = Action::Tell(Event::Drift(first.part.clone()));
     Some(item.then(warning.advice).leads_to(Some(to_statistics)))
 }
 
@@ -362,7 +355,7 @@ pub fn ui(ui: &mut Ui, state: &State, robot: &RobotCell, actions: &mut Vec<Actio
         ui.spacing_mut().item_spacing.x = 0.0;
         ui.horizontal_centered(|ui| {
             let shares: f32 = bar.items.iter().map(|item| item.topic.share()).sum();
-            let per_share = ui.available_width() / shares;
+            let per_share = ui.available_width().max(0.0) / shares;
             for item in bar.items {
                 let size = vec2(item.topic.share() * per_share, space::TARGET);
                 let response = draw(ui, &item, size);
@@ -503,8 +496,9 @@ mod tests {
     use egui::{RawInput, Shape};
 
     use super::*;
-    use crate::source::live::LiveStatus;
+    use crate::{session::DriftingPart, source::live::LiveStatus};
     use inspection::pipeline::live::{InspectionRate, LiveVerdict};
+    use records::history::{DriftQuantity, DriftWarning};
     use ui::{language::Language, task::TaskRunner, theme::ThemeChoice};
 
     fn robot() -> RobotCell {
@@ -596,6 +590,29 @@ mod tests {
                 matches!(robots.action, Some(Action::Robot(RobotAction::Show(shown))) if shown == page)
             );
         }
+    }
+
+    #[test]
+    fn of_several_drifts_the_one_that_refuses_first_is_told_and_leads_to_its_statistics() {
+        let mut session = Session::default();
+        for (part, refuses_in) in [("fender", 40), ("grille", 12), ("hood", 60)] {
+            session.shift.drifting.push(DriftingPart {
+                part: part.into(),
+                title: part.to_uppercase(),
+                warning: DriftWarning {
+                    quantity: DriftQuantity::Score,
+                    limit: 0.9,
+                    refuses_in,
+                },
+            });
+        }
+        let drift = item(&session, Topic::Drift);
+        assert_eq!(drift.mark, Mark::Look);
+        assert!(drift.says.starts_with("GRILLE drifts"), "{}", drift.says);
+        assert!(drift.says.contains("after 12 more"), "{}", drift.says);
+        assert!(
+            matches!(&drift.action, Some(Action::Tell(Event::Drift(part))) if part == "grille")
+        );
     }
 
     /// The texts of the bar in a window of this width.

@@ -1,8 +1,15 @@
 //! The guide inside the program: its pages, and the search in them.
 
-use std::{ops::Range, sync::LazyLock};
+use std::{
+    ops::Range,
+    sync::{Arc, LazyLock},
+};
 
-use egui::{Align, Id, Layout, OpenUrl, Rect, RichText, Ui, vec2};
+use egui::{
+    Align, Id, Layout, OpenUrl, Rect, RichText, Ui,
+    cache::{ComputerMut, FrameCache},
+    vec2,
+};
 
 use super::{
     markdown::{self, Block},
@@ -96,8 +103,23 @@ impl Page {
     }
 }
 
-/// Finds the sections with all these words; those with all of them in their headings come first.
-pub(super) fn find(search: &str) -> Vec<GuideResult> {
+/// Searches once for each text, not in every frame.
+#[derive(Default)]
+struct Finder;
+
+impl ComputerMut<&str, Arc<[GuideResult]>> for Finder {
+    fn compute(&mut self, search: &str) -> Arc<[GuideResult]> {
+        find(search).into()
+    }
+}
+
+/// The sections with all these words; those with all of them in their headings come first.
+pub(super) fn found(ui: &Ui, search: &str) -> Arc<[GuideResult]> {
+    type Cache = FrameCache<Arc<[GuideResult]>, Finder>;
+    ui.memory_mut(|memory| Arc::clone(memory.caches.cache::<Cache>().get(search)))
+}
+
+fn find(search: &str) -> Vec<GuideResult> {
     let folded = search.to_lowercase();
     let words: Vec<&str> = folded.split_whitespace().collect();
     let mut found = [Vec::new(), Vec::new()];

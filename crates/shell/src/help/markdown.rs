@@ -310,7 +310,8 @@ fn draw_table(ui: &mut Ui, rows: &[Vec<Vec<Span>>]) -> Option<String> {
     };
     let letters: Vec<f32> = (0..num_columns).map(letters).collect();
     let gap = space::MEDIUM;
-    let room = ui.available_width() - gap * num_columns.saturating_sub(1) as f32;
+    let gaps = gap * num_columns.saturating_sub(1) as f32;
+    let room = (ui.available_width() - gaps).max(0.0);
     let total: f32 = letters.iter().sum();
     let mut pressed = None;
     for (index, row) in rows.iter().enumerate() {

@@ -8,7 +8,7 @@ pub mod report;
 mod state;
 
 use egui::{
-    Align, Context, Grid, Key, Layout, Modifiers, RichText, ScrollArea, Ui, WidgetInfo, vec2,
+    Align, Context, Grid, Key, Layout, Modifiers, RichText, ScrollArea, Ui, Vec2, WidgetInfo, vec2,
 };
 
 pub use self::state::{GuidePlace, Help, HelpPage, Installation};
@@ -39,6 +39,8 @@ pub fn ui(ctx: &Context, state: &State, own: &[KeyBinding], actions: &mut Vec<Ac
     let mut help = known.clone();
     let window = ctx.content_rect().size();
     let size = vec2(WIDTH.min(window.x - MARGINS[0]), window.y - MARGINS[1]);
+    // A window may have no size, and egui takes no negative one.
+    let size = size.max(Vec2::ZERO);
     let modal = widgets::dialog(ctx, "help", |ui| {
         ui.set_width(size.x);
         top(ui, &mut help);
@@ -143,7 +145,7 @@ fn results(ui: &mut Ui, lines: Vec<KeyLine>, help: &mut Help) -> Option<Action> 
         words.iter().all(|word| text.contains(word))
     };
     let lines: Vec<KeyLine> = lines.into_iter().filter(is_found).collect();
-    let of_guide = guide::find(&help.search);
+    let of_guide = guide::found(ui, &help.search);
     let mut done = None;
     scrolled(ui, "found", |ui| {
         if lines.is_empty() && of_guide.is_empty() {

@@ -1,7 +1,7 @@
 //! Problem reports: the page of Help that says what one holds, and the task that writes it.
 
 use std::{
-    net::{IpAddr, SocketAddr},
+    net::{Ipv4Addr, Ipv6Addr},
     path::PathBuf,
     sync::Arc,
 };
@@ -18,7 +18,7 @@ use crate::{
 use inspection::{library::PartName, pipeline::NamedRecipe};
 use records::{
     history::Traceability,
-    report::{ProblemReport, compared_entries},
+    report::{ProblemReport, SETTINGS_FILE, compared_entries},
 };
 use ui::{
     language::text,
@@ -48,7 +48,7 @@ pub(crate) fn write(state: &mut State, path: PathBuf) {
         // A problem with the settings costs nothing else.
         let settings = settings.unwrap_or_else(|error| error.to_string());
         let texts = [
-            ("settings.toml", without_addresses(&settings)),
+            (SETTINGS_FILE, without_addresses(&settings)),
             ("log.txt", log),
         ];
         let entries = inspected.as_deref().map(entries).unwrap_or_default();
@@ -96,32 +96,38 @@ fn entries(inspected: &Inspected) -> Vec<PartName> {
     compared_entries(&inspected.inspection, &inspected.library.parts)
 }
 
-/// The text without network addresses.
+/// The text without network addresses. Ports stay.
 fn without_addresses(text: &str) -> String {
-    let is_of_address = |letter: char| letter.is_ascii_hexdigit() || matches!(letter, '.' | ':');
+    let of_version_6 = |letter: char| letter.is_ascii_hexdigit() || matches!(letter, '.' | ':');
+    let text = without(text, of_version_6, |word| word.parse::<Ipv6Addr>().is_ok());
+    let of_version_4 = |letter: char| letter.is_ascii_digit() || letter == '.';
+    without(&text, of_version_4, |word| word.parse::<Ipv4Addr>().is_ok())
+}
+
+/// The text without the words of these letters that are addresses.
+fn without(
+    text: &str,
+    is_letter: impl Fn(char) -> bool,
+    is_address: impl Fn(&str) -> bool,
+) -> String {
     let mut cleaned = String::with_capacity(text.len());
     let mut rest = text;
-    while let Some(first) = rest.chars().next() {
-        if !is_of_address(first) {
-            cleaned.push(first);
-            rest = &rest[first.len_utf8()..];
-            continue;
-        }
-        let end = rest.find(|letter| !is_of_address(letter));
-        let (word, after) = rest.split_at(end.unwrap_or(rest.len()));
-        let bare = word.trim_matches(['.', ':']);
-        match [word, bare].into_iter().find(|word| is_address(word)) {
-            Some(address) => cleaned.push_str(&word.replace(address, ADDRESS)),
+    while let Some(begin) = rest.find(&is_letter) {
+        let (before, from) = rest.split_at(begin);
+        let end = from.find(|letter: char| !is_letter(letter));
+        let (word, after) = from.split_at(end.unwrap_or(from.len()));
+        cleaned.push_str(before);
+        // A stop or a colon may be that of the sentence; and `d::ce` is in the middle of `std::cell`.
+        let has_digit = |word: &str| word.bytes().any(|letter| letter.is_ascii_digit());
+        let mut both = [word, word.trim_matches(['.', ':'])].into_iter();
+        match both.find(|word| has_digit(word) && is_address(word)) {
+            Some(address) => cleaned.push_str(&word.replacen(address, ADDRESS, 1)),
             None => cleaned.push_str(word),
         }
         rest = after;
     }
+    cleaned.push_str(rest);
     cleaned
-}
-
-fn is_address(word: &str) -> bool {
-    let has_digit = word.bytes().any(|letter| letter.is_ascii_digit());
-    has_digit && (word.parse::<IpAddr>().is_ok() || word.parse::<SocketAddr>().is_ok())
 }
 
 /// Draws what a report would hold, and the button that writes it.
@@ -173,9 +179,11 @@ mod tests {
         for (text, cleaned) in [
             (
                 "Robots that ask at 192.168.1.5:30100 get no answer",
-                "Robots that ask at (address) get no answer",
+                "Robots that ask at (address):30100 get no answer",
             ),
             ("genicam:10.0.0.7, lost", "genicam:(address), lost"),
+            // A name that ends with a letter that an address of version 6 may have.
+            ("source:10.0.0.7:80, lost", "source:(address):80, lost"),
             ("Answered 10.0.0.7.", "Answered (address)."),
             ("eki=[fe80::1]:54600", "eki=[(address)]:54600"),
             (

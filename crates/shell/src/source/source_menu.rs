@@ -93,16 +93,16 @@ fn heading(ui: &mut Ui, text: String) {
     ui.label(RichText::new(text).font(font::heading()));
 }
 
+/// The simulated cell to begin with when it is set up: that in use, if it is one.
+pub(crate) fn cell_in_use(source: &Source) -> SimulatedSpec {
+    match source.followed() {
+        Some(SourceSpec::Simulated(spec)) => spec,
+        _ => SimulatedSpec::default(),
+    }
+}
+
 /// Draws the simulated cell: what may hang in it is in a menu of its own.
 fn simulated(ui: &mut Ui, session: &Session, height: f32, actions: &mut Vec<Action>) {
-    let (is_set_up, spec) = match &session.source {
-        Source::Camera(spec) => match &**spec {
-            SourceSpec::Simulated(spec) => (true, spec.clone()),
-            _ => (false, SimulatedSpec::default()),
-        },
-        Source::Cell(choice) => (false, choice.followed()),
-        Source::File(_) | Source::Scan(_) => (false, SimulatedSpec::default()),
-    };
     let title = text!("shell-simulated-cell");
     let menu = menu_button(ui, &title, |ui| {
         column(ui, height, "cell", |ui| {
@@ -118,10 +118,12 @@ fn simulated(ui: &mut Ui, session: &Session, height: f32, actions: &mut Vec<Acti
     let is_chosen = matches!(session.source, Source::Cell(_));
     let button = menu.response;
     button.widget_info(|| WidgetInfo::selected(egui::Role::Button, true, is_chosen, &title));
+    let is_set_up = matches!(&session.source, Source::Camera(spec) if matches!(**spec, SourceSpec::Simulated(_)));
     if ui
         .selectable_label(is_set_up, text!("shell-set-up-cell"))
         .clicked()
     {
+        let spec = cell_in_use(&session.source);
         actions.push(Action::Live(LiveAction::SetUp(Some(spec))));
         ui.close();
     }

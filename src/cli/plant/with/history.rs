@@ -1,4 +1,6 @@
-//! `partsight history send`, and `list`, `show` and `export` over the cells of a plant.
+//! `partsight history send`, and `list`, `show`, `export` and `drift` over the cells of a plant.
+
+use std::collections::{BTreeMap, VecDeque};
 
 use clap::{Args, Subcommand};
 
@@ -7,13 +9,17 @@ use crate::cli::{
     Outcome,
     console::{Advised as _, Console, advised_error},
     history::{
-        CellRow, Command, ExportArgs, ListArgs, ShowArgs, here, note_counts,
+        CellRow, Command, ExportArgs, ListArgs, ShowArgs,
+        drift::{self, DriftArgs, PartPoses},
+        here, note_counts,
         show::{ReadFrom, card, record_line},
         show_rows,
     },
 };
-use plant::database::{BATCH, CellHistory, CellName, Database, TransferError};
-use records::history::{History, HistoryError, Record, write_cells_table};
+use plant::database::{BATCH, CellHistory, CellName, Database, DatabaseError, TransferError};
+use records::history::{
+    History, HistoryError, MAX_POSES, PoseRecord, Record, StoredVerdict, write_cells_table,
+};
 
 /// Which database is read instead of the history here.
 #[derive(Debug, Args)]
@@ -100,7 +106,7 @@ pub(crate) fn run(
     Ok(Outcome::Accepted)
 }
 
-/// Runs `list`, `show` or `export` on a database; returns `None` if they are to use the local history.
+/// Runs `list`, `show`, `export` or `drift` on a database; returns `None` if they are to use the local history.
 pub(crate) fn overview(
     command: &Command,
     console: &mut Console,
@@ -116,6 +122,10 @@ pub(crate) fn overview(
         },
         Command::Export(asked) => match asked.from.database(console)? {
             Some(database) => export(&database, asked, console).map(Some),
+            None => Ok(None),
+        },
+        Command::Drift(asked) => match asked.from.database(console)? {
+            Some(database) => drift(&database, asked, console).map(Some),
             None => Ok(None),
         },
         _ => Ok(None),
@@ -197,4 +207,30 @@ fn export(database: &Database, asked: &ExportArgs, console: &Console) -> anyhow:
         path.display()
     ));
     Ok(Outcome::Accepted)
+}
+
+/// Shows the drift of each part at each cell: the same part at another cell is no drift.
+fn drift(database: &Database, asked: &DriftArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+    let mut filter = asked.filter.filter();
+    filter.verdict.get_or_insert(StoredVerdict::Accepted.into());
+    let mut newest: BTreeMap<(String, String), VecDeque<PoseRecord>> = BTreeMap::new();
+    let read = database.each::<DatabaseError>(&filter, asked.from.cell.as_ref(), |cell, record| {
+        let pose = PoseRecord::of_record(&record);
+        if let (Some(part), Some(pose)) = (record.summary.part, pose) {
+            let poses = newest.entry((cell.to_owned(), part)).or_default();
+            poses.push_back(pose);
+            if poses.len() > MAX_POSES {
+                poses.pop_front();
+            }
+        }
+        Ok(())
+    });
+    read.advised()?;
+    let all = newest.into_iter().map(|((cell, part), poses)| PartPoses {
+        cell: Some(cell),
+        part,
+        poses: poses.into(),
+    });
+    let all: Vec<PartPoses> = all.collect();
+    Ok(drift::answer(&all, asked, console))
 }

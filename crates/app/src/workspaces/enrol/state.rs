@@ -356,6 +356,7 @@ impl EnrolState {
             | Event::TracedLate(..)
             | Event::PosesWanted(_)
             | Event::WrongPart(_)
+            | Event::Drift(_)
             | Event::Labelled { .. }
             | Event::Undo(_)
             | Event::Export => {}

@@ -4,6 +4,7 @@ use std::{path::PathBuf, sync::Arc};
 
 use super::{
     action::{Direction, HistoryAction, HistoryFile, HistoryJob},
+    filter::ListFilter,
     state::HistoryState,
     statistics::StatisticsView,
     work::{self, HistoryResult},
@@ -145,6 +146,14 @@ impl HistoryState {
                 let title = truth_title(Some(label), library);
                 let what = text!("history-labelled", part = title);
                 cx.notify(Notice::undoable(what, WorkspaceKind::History));
+            }
+            Event::Drift(part) => {
+                self.filter = ListFilter {
+                    part: Some(part.clone()),
+                    ..ListFilter::default()
+                };
+                self.apply(HistoryAction::Statistics(true), cx);
+                cx.send(Action::GoTo(WorkspaceKind::History));
             }
             Event::Undo(WorkspaceKind::History) => {
                 if let Some((part, former)) = self.former_label.take() {

@@ -12,12 +12,12 @@ use super::{
     action::{HistoryAction, HistoryFile, HistoryJob},
     drift::Drift,
     filter::ListFilter,
-    statistics::{self, Statistics, StatisticsView, accepted_parts},
+    statistics::{self, Statistics, StatisticsView},
     work::{self, HistoryQuery, HistoryResult, OpenedInspection, RunsView, former_title},
 };
 
 use inspection::library::Truth;
-use records::history::{Differences, HungId, Page, Retention, Summary, Usage};
+use records::history::{Differences, HungId, Page, Retention, Summary, Usage, accepted_parts};
 use shell::{
     file_dialog::FileDialog, inspection::inspected::Inspected, notice::Notice,
     workspace::ShellContext,
@@ -442,7 +442,8 @@ impl HistoryState {
                 found.warnings = warnings
                     .map(|(part, warning)| (title_of(&part), warning))
                     .collect();
-                if let Some(part) = filter.part.as_ref().or(accepted.first()) {
+                let most = accepted.first().map(|(part, _)| part);
+                if let Some(part) = filter.part.as_ref().or(most) {
                     let drift = work::drift(part, counted, &keeper, &libraries.get().library);
                     let drift = drift.map_err(|error| UserError::of(&error))?;
                     found.drift =

@@ -184,20 +184,6 @@ pub(super) fn count(
     found
 }
 
-/// Names of the accepted parts, the one accepted most often first.
-pub(super) fn accepted_parts(outcomes: &[PartOutcome]) -> Vec<String> {
-    let accepted = outcomes
-        .iter()
-        .filter(|outcome| outcome.verdict == StoredVerdict::Accepted);
-    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
-    for part in accepted.filter_map(|outcome| outcome.part.as_deref()) {
-        *counts.entry(part).or_default() += 1;
-    }
-    let mut parts: Vec<(&str, usize)> = counts.into_iter().collect();
-    parts.sort_by_key(|(_, num)| Reverse(*num));
-    parts.into_iter().map(|(part, _)| part.to_owned()).collect()
-}
-
 /// Draws the statistics.
 pub(super) fn ui(ui: &mut Ui, view: &StatisticsView, units: UnitSystem) {
     let StatisticsView::Counted(found) = view else {

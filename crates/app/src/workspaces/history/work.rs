@@ -14,7 +14,7 @@ use inspection::library::Library;
 use records::{
     cases::{CaseFolder, PastCases, TruthFrom},
     history::{
-        DriftWarning, Filter, HistoryBuffer, HistoryError, MAX_POSES, POSES_FOR_WARNING, Page,
+        DriftWarning, Filter, HistoryBuffer, HistoryError, LEAST_FOR_TREND, MAX_POSES, Page,
         PartDrift, PartOutcome, Record, Retention, ServoRecord, ServoRun, StoredVerdict, Summary,
         Usage, write_servo_table, write_table,
     },
@@ -169,21 +169,23 @@ pub(super) fn former_title(history: &HistoryBuffer, name: &str) -> String {
 /// Parts that are looked after, those accepted most often.
 const MAX_WATCHED: usize = 50;
 
-/// The parts of these names that a trend will refuse, of those that match the filter.
+/// Which of these parts, named with how often they were accepted, a trend will refuse, by the inspections that match the filter.
 pub(super) fn drift_warnings(
-    parts: &[String],
+    accepted: &[(String, usize)],
     filter: &Filter,
     history: &HistoryBuffer,
 ) -> Result<Vec<(String, DriftWarning)>, HistoryError> {
     let mut warnings = Vec::new();
-    for part in parts.iter().take(MAX_WATCHED) {
+    // To find few inspections of a part takes longest.
+    let frequent = accepted
+        .iter()
+        .take_while(|(_, num)| *num >= LEAST_FOR_TREND);
+    for (part, _) in frequent.take(MAX_WATCHED) {
         let of_part = Filter {
             part: Some(part.clone()),
             ..filter.clone()
         };
-        let poses = history.poses(&of_part, POSES_FOR_WARNING)?;
-        // No limit is about the position.
-        let warning = PartDrift::of(&poses, |_| None).and_then(|drift| drift.warning());
+        let warning = history.drift_warning(&of_part)?;
         warnings.extend(warning.map(|warning| (part.clone(), warning)));
     }
     Ok(warnings)
@@ -201,10 +203,7 @@ pub(super) fn drift(
         ..filter
     };
     let poses = history.poses(&of_part, MAX_POSES)?;
-    Ok(PartDrift::of(&poses, |name| {
-        let mut references = library.references.iter();
-        references.find(|of| of.enrolled_as == name)?.middle()
-    }))
+    Ok(PartDrift::of(&poses, |name| library.middle_of(name)))
 }
 
 fn opened(record: Record, history: &HistoryBuffer) -> Result<OpenedInspection, HistoryError> {

@@ -14,6 +14,7 @@ use super::{
 use crate::workspaces::inspect::state::InspectAction;
 use records::history::StoredVerdict;
 use shell::{
+    cell::operators_warning,
     session::{Session, past_mark},
     trace::{entry, expecting},
 };
@@ -168,6 +169,13 @@ fn title_label(ui: &mut Ui, title: &str, rows: Arc<Galley>) {
     }
 }
 
+/// Warns that robots are to be answered, but get no pose or no frames: the line stands until somebody acts.
+fn robots_without_answer(ui: &mut Ui, session: &Session) {
+    if let Some(says) = operators_warning(session) {
+        warn(ui, &says, &font::far_reason());
+    }
+}
+
 fn warn(ui: &mut Ui, says: &str, font: &FontId) {
     let theme = Theme::of(ui);
     ui.add_space(space::SMALL);
@@ -248,6 +256,7 @@ fn column(ui: &mut Ui, banner: &Banner, session: &Session, actions: &mut Vec<Ins
         expecting::ui(ui, session, &mut of_shell);
         actions.extend(of_shell.into_iter().map(InspectAction::Act));
     }
+    robots_without_answer(ui, session);
     ui.add_space(space::SMALL);
     ui.weak(text!("operator-last-parts"));
     ui.add_space(space::SMALL);
@@ -439,6 +448,28 @@ mod tests {
         assert_eq!(colour_of("Door with 1"), Some(theme.warning));
         assert!(colour_of("Not for robots: the part was moving").is_some());
         output.drop_without_applying_deltas();
+    }
+
+    #[test]
+    fn that_robots_get_no_pose_is_written_for_the_distance() {
+        let mut session = Session::default();
+        session.answering.is_on = true;
+        let ctx = egui::Context::default();
+        Theme::install_fonts(&ctx);
+        Theme::install(ThemeChoice::default(), &ctx);
+        let input = RawInput {
+            screen_rect: Some(Rect::from_min_size(Pos2::ZERO, vec2(COLUMN[1], 600.0))),
+            ..RawInput::default()
+        };
+        let banner = Banner::new(Tone::Open, "", "", "");
+        let output = ctx.run_ui(input, |ui| column(ui, &banner, &session, &mut Vec::new()));
+        let warning = operators_warning(&session).expect("no pose");
+        let is_large = output.shapes.iter().any(|drawn| {
+            matches!(&drawn.shape, Shape::Text(text) if text.galley.text() == warning
+                && text.galley.job.sections[0].format.font_id == font::far_reason())
+        });
+        output.drop_without_applying_deltas();
+        assert!(is_large, "{warning}");
     }
 
     /// The texts of a banner of this size and their numbers of rows. None may be cut off or overlap another.

@@ -277,6 +277,7 @@ impl InspectState {
             Event::Left(_)
             | Event::TracedLate(..)
             | Event::EngineerIn
+            | Event::Drift(_)
             | Event::Labelled { .. }
             | Event::Undo(_) => {}
         }

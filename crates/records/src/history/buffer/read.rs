@@ -2,7 +2,7 @@
 
 use super::{HistoryBuffer, Inner};
 use crate::history::{
-    drift::PoseRecord,
+    drift::{DriftWarning, POSES_FOR_WARNING, PartDrift, PoseRecord},
     entry::{Record, Summary, png_of},
     error::HistoryError,
     filter::Filter,
@@ -37,6 +37,19 @@ impl HistoryBuffer {
             num_matching: num_above + below.num_matching,
             num_all: num_waiting + below.num_all,
         })
+    }
+
+    /// As [`History::newest`], including inspections that are not written yet.
+    pub fn newest(&self, filter: &Filter, most: usize) -> Result<Vec<Summary>, HistoryError> {
+        let mut inner = self.lock();
+        self.look(&mut inner);
+        let waiting = waiting_rows(&inner.waiting, inner.history.as_ref())?;
+        let waiting = waiting.into_iter().rev().filter(|row| filter.passes(row));
+        let mut rows: Vec<Summary> = waiting.take(most).collect();
+        if let Some(history) = &inner.history {
+            rows.extend(history.newest(filter, most - rows.len())?);
+        }
+        Ok(rows)
     }
 
     /// Returns runs of servoing, waiting ones above written ones.
@@ -160,6 +173,13 @@ impl HistoryBuffer {
         let mut poses = self.with_waiting(filter, written, PoseRecord::of_record)?;
         poses.drain(..poses.len().saturating_sub(most));
         Ok(poses)
+    }
+
+    /// The trend that will refuse the part of this filter, going by its newest inspections; `None` if none will.
+    pub fn drift_warning(&self, of_part: &Filter) -> Result<Option<DriftWarning>, HistoryError> {
+        let poses = self.poses(of_part, POSES_FOR_WARNING)?;
+        // No limit is about the position.
+        Ok(PartDrift::of(&poses, |_| None).and_then(|drift| drift.warning()))
     }
 
     /// Returns the written items, then those of the waiting inspections that match the filter.
