@@ -104,7 +104,7 @@ shell-truth-nothing = Nichts (leere Zelle)
 
 ## The status bar
 
-status-days = { $num ->
+shell-days = { $num ->
         [one] 1 Tag
        *[other] { $num } Tage
     }

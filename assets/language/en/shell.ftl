@@ -104,7 +104,7 @@ shell-truth-nothing = Nothing (empty cell)
 
 ## The status bar
 
-status-days = { $num ->
+shell-days = { $num ->
         [one] 1 day
        *[other] { $num } days
     }

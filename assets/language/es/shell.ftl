@@ -104,7 +104,7 @@ shell-truth-nothing = Nada (celda vacía)
 
 ## The status bar
 
-status-days = { $num ->
+shell-days = { $num ->
         [one] 1 día
        *[other] { $num } días
     }

@@ -92,7 +92,7 @@ shell-truth-nothing = 无（空工位）
 
 ## The status bar
 
-status-days = { $num } 天
+shell-days = { $num } 天
 status-from-pairs = 手眼标定
 status-made-ago = { $kind }，{ $age }前
 status-edited = 已修改

@@ -420,8 +420,8 @@ fn setup(suite: ServoSuite, number: u64, seed: u64, parts: &[CellPart]) -> CellS
 mod tests {
     use super::*;
     use inspection::fixtures::standard_library;
-    use simulate::{CellSetup as FrameSetup, Side, frame};
-    use stages::scene::scene_from_frame;
+    use simulate::Side;
+    use stages::fixtures::facing_part;
 
     const SEED: u64 = 3_000_000;
 
@@ -502,9 +502,8 @@ mod tests {
             library: Library::default(),
             parts: Vec::new(),
         };
-        let captured = frame(&FrameSetup::with_part(PartKind::Grille, Side::Left, 0, 4));
         let name = PartName::new("seen").expect("a name");
-        let scene = scene_from_frame(&captured.frame);
+        let scene = facing_part(PartKind::Fender, Side::Left, 5);
         parts.add_captured(&scene, name).expect("a part");
         let cases = servo_cases(ServoSuite::Camera, 0..1, SEED, &parts, || ());
         let run = cases[0].run.as_ref().expect("a start");

@@ -51,7 +51,8 @@ fn a_baseline_is_taken_compared_with_and_replaced() {
         press(&mut harness, "Check now");
         // The label is in the finding, and in each row of the list.
         assert_eq!(count(&harness, IN_PLACE), 1 + num);
-        harness.get_by_label(&format!("Last {num} of {num} checks"));
+        let checks = if num == 1 { "check" } else { "checks" };
+        harness.get_by_label(&format!("Last {num} of {num} {checks}"));
     }
     harness.get_by_label("Nothing needs to be done");
     // One for the part, and one for wall and floor.

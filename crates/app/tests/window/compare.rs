@@ -613,7 +613,7 @@ fn an_earlier_run_is_compared_and_what_is_worse_is_listed_first() {
     harness.get_by_label("Compare with an earlier run…");
     compare(&mut harness);
     harness.get_by_label("none worse");
-    harness.get_by_label_contains("1 cases of both · 1 gone or damaged · against earlier.json");
+    harness.get_by_label_contains("1 case of both · 1 gone or damaged · against earlier.json");
 
     // With a threshold that nothing reaches, the case is refused now.
     let strict = CompareAction::Set("accept.min_score", 1.0);

@@ -102,7 +102,8 @@ fn what_enrol_says_follows_the_language_of_the_window() {
     press(&mut harness, "Sprache: Deutsch");
     press(&mut harness, "English");
     let card = harness.get_by_label("Enrolled: 右前 涂装");
-    assert_eq!(card.accesskit_node().value().as_deref(), Some("Just saved"));
+    let value = card.accesskit_node().value();
+    assert!(value.is_some_and(|value| value.starts_with("Saved, ")));
 }
 
 #[test]
@@ -163,7 +164,11 @@ fn where_a_scene_came_from_is_read_and_found_in_the_language_of_the_window() {
     assert_eq!(titles.count(), 2, "{drawn:?}");
     assert!(drawn.iter().all(|drawn| !drawn.text.contains("imulated")));
     harness.get_by_label("Simulierte Zelle");
-    for (text, count) in [("bild 1", 1), ("bild 2", 0), ("simulated", 1)] {
+    for (text, found) in [
+        ("bild 1", "1 von 1 Eintrag"),
+        ("bild 2", "0 von 1 Eintrag"),
+        ("simulated", "1 von 1 Eintrag"),
+    ] {
         let filter = ListFilter {
             text: text.into(),
             ..ListFilter::default()
@@ -171,7 +176,7 @@ fn where_a_scene_came_from_is_read_and_found_in_the_language_of_the_window() {
         act_in(&mut harness, |history: &mut HistoryWorkspace, cx| {
             history.apply(HistoryAction::Filter(filter), cx);
         });
-        harness.get_by_label(&format!("{count} von 1 Einträgen"));
+        harness.get_by_label(found);
     }
 }
 

@@ -116,7 +116,7 @@ impl History {
         let asked = format!(
             "SELECT at, score, line, source, recipe FROM inspection JOIN detail USING (number)
                 WHERE {condition} AND verdict = 'accepted' AND score IS NOT NULL
-                ORDER BY at DESC, number DESC LIMIT {most}"
+                ORDER BY at DESC, number DESC"
         );
         let mut asked = self.file.prepare(&asked)?;
         let rows = asked.query_map(params_from_iter(values), |row| {
@@ -132,6 +132,7 @@ impl History {
         })?;
         let mut poses = rows
             .filter_map(Result::transpose)
+            .take(most)
             .collect::<rusqlite::Result<Vec<_>>>()?;
         poses.reverse();
         // Most have the same recipe.

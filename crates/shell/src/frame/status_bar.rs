@@ -35,6 +35,8 @@ use ui::{
     widgets::{Mark, fitted_middle, fixed_panel, focus_ring, mark, pad_entries, text_width},
 };
 
+/// Height of the bar with the line above it, logical pixels.
+const HEIGHT_PX: f32 = space::TARGET + 2.0;
 /// Margins of the bar.
 const MARGIN: Margin = Margin::symmetric(14, 0);
 /// Width of an icon with the space around it, logical pixels.
@@ -343,14 +345,14 @@ fn written_age(age: Duration) -> String {
         seconds @ 10..MINUTE => format!("{seconds} s"),
         seconds @ MINUTE..HOUR => format!("{} min", seconds / MINUTE),
         seconds @ HOUR..DAY => format!("{} h", seconds / HOUR),
-        seconds => text!("status-days", num = seconds / DAY),
+        seconds => text!("shell-days", num = seconds / DAY),
     }
 }
 
 /// Draws the bar, below everything else.
 pub fn ui(ui: &mut Ui, state: &State, robot: &RobotCell, actions: &mut Vec<Action>) {
     let bar = StatusBar::of(&state.session, robot);
-    let panel = Panel::bottom("status bar").exact_size(space::TARGET);
+    let panel = Panel::bottom("status bar").exact_size(HEIGHT_PX);
     fixed_panel(ui, panel, MARGIN, |ui| {
         ui.spacing_mut().item_spacing.x = 0.0;
         ui.horizontal_centered(|ui| {

@@ -58,19 +58,23 @@ fn measured(
     measure_deviation(&part, reference, &DeviationParams::default())
 }
 
-/// The patch around which the surface turns least within 5 cm.
+/// The patch around which the surface turns least within 5 cm, of those that the surface surrounds.
 fn smoothest(patches: &[PatchDeviation]) -> PatchDeviation {
-    let turned = |one: &PatchDeviation| {
+    let around = patches.iter().map(|one| {
         let near = patches
             .iter()
             .filter(|near| (near.at - one.at).norm() < 0.05);
-        let cosines: Vec<f32> = near.map(|near| near.normal.dot(&one.normal)).collect();
-        let is_inside = cosines.len() > 60;
-        is_inside.then(|| cosines.iter().copied().fold(1.0, f32::min))
-    };
-    let judged = patches.iter().filter_map(|one| Some((turned(one)?, one)));
-    let smoothest = judged.max_by(|a, b| a.0.total_cmp(&b.0));
-    *smoothest.expect("a patch in the middle of the part").1
+        let cosines = near.map(|near| near.normal.dot(&one.normal));
+        cosines.fold((0, 1.0_f32), |(num, least), cosine| {
+            (num + 1, least.min(cosine))
+        })
+    });
+    let around: Vec<(usize, f32)> = around.collect();
+    let most = around.iter().map(|(num, _)| *num).max().expect("patches");
+    let inside = patches.iter().zip(&around);
+    let inside = inside.filter(|(_, (num, _))| 10 * num >= 9 * most);
+    let smoothest = inside.max_by(|a, b| a.1.1.total_cmp(&b.1.1));
+    *smoothest.expect("a patch in the middle of the part").0
 }
 
 #[test]
