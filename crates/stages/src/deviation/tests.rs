@@ -164,8 +164,9 @@ fn a_hole_is_missing_surface() {
     let missing: Vec<_> = missing.collect();
     assert_eq!(missing.len(), 1, "{:?}", found.regions);
     assert!((missing[0].centre - place.cast::<f64>()).norm() < 0.02);
+    // The part's shadow hides about half of what is seen through a hole.
     assert!(
-        (2e-3..7e-3).contains(&missing[0].area_m2),
+        (1e-3..7e-3).contains(&missing[0].area_m2),
         "{}",
         missing[0].area_m2
     );
