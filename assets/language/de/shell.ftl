@@ -108,26 +108,26 @@ shell-days = { $num ->
         [one] 1 Tag
        *[other] { $num } Tage
     }
-status-from-pairs = Hand-Auge-Kalibrierung
-status-made-ago = { $kind }, Alter: { $age }
-status-edited = geändert
-status-no-flange-pose = keine Flanschpose
-status-not-calibrated = nicht kalibriert
-status-robots-off = Roboter aus
-status-robots-off-says = Kein Roboter erhält Antwort: Das Antworten ist ausgeschaltet
-status-not-answered = keine Antwort
-status-no-frames = keine Bilder
-status-robots-start = startet
-status-listens = bereit
-status-last-answer = Letzte Antwort: { $answer }
-status-live-off = Live aus
-status-live-off-says = Live ist aus: Ob das Teil ruhig hängt, wird nicht beobachtet
-status-motion-unknown = Es kommen keine Bilder: Ob das Teil ruhig hängt, ist nicht bekannt
-status-no-frame = Es wurde noch kein Bild aufgenommen
-status-frame-age = Alter des Bildes auf dem Bildschirm: { $age }
-status-speed = Dieser Rechner prüft { $inspected } von { $frames } Bildern
-status-speed-unknown = Die Geschwindigkeit dieses Rechners wird gemessen, während Live läuft
-status-drift = Drift
+shell-status-from-pairs = Hand-Auge-Kalibrierung
+shell-status-made-ago = { $kind }, Alter: { $age }
+shell-status-edited = geändert
+shell-status-no-flange-pose = keine Flanschpose
+shell-status-not-calibrated = nicht kalibriert
+shell-status-robots-off = Roboter aus
+shell-status-robots-off-says = Kein Roboter erhält Antwort: Das Antworten ist ausgeschaltet
+shell-status-not-answered = keine Antwort
+shell-status-no-frames = keine Bilder
+shell-status-robots-start = startet
+shell-status-listens = bereit
+shell-status-last-answer = Letzte Antwort: { $answer }
+shell-status-live-off = Live aus
+shell-status-live-off-says = Live ist aus: Ob das Teil ruhig hängt, wird nicht beobachtet
+shell-status-motion-unknown = Es kommen keine Bilder: Ob das Teil ruhig hängt, ist nicht bekannt
+shell-status-no-frame = Es wurde noch kein Bild aufgenommen
+shell-status-frame-age = Alter des Bildes auf dem Bildschirm: { $age }
+shell-status-speed = Dieser Rechner prüft { $inspected } von { $frames } Bildern
+shell-status-speed-unknown = Die Geschwindigkeit dieses Rechners wird gemessen, während Live läuft
+shell-status-drift = Drift
 
 ## The source
 

@@ -108,26 +108,26 @@ shell-days = { $num ->
         [one] 1 day
        *[other] { $num } days
     }
-status-from-pairs = hand-eye calibration
-status-made-ago = { $kind }, { $age } ago
-status-edited = edited
-status-no-flange-pose = no flange pose
-status-not-calibrated = not calibrated
-status-robots-off = robots off
-status-robots-off-says = No robot is answered: answering is off
-status-not-answered = not answered
-status-no-frames = no frames
-status-robots-start = starting
-status-listens = listens
-status-last-answer = Last answer: { $answer }
-status-live-off = Live off
-status-live-off-says = Live is off: nobody watches whether the part hangs still
-status-motion-unknown = No frames arrive: whether the part hangs still is not known
-status-no-frame = No frame has been captured yet
-status-frame-age = Age of the frame on the screen: { $age }
-status-speed = This computer inspects { $inspected } of { $frames } frames
-status-speed-unknown = The speed of this computer is measured while Live is on
-status-drift = drift
+shell-status-from-pairs = hand-eye calibration
+shell-status-made-ago = { $kind }, { $age } ago
+shell-status-edited = edited
+shell-status-no-flange-pose = no flange pose
+shell-status-not-calibrated = not calibrated
+shell-status-robots-off = robots off
+shell-status-robots-off-says = No robot is answered: answering is off
+shell-status-not-answered = not answered
+shell-status-no-frames = no frames
+shell-status-robots-start = starting
+shell-status-listens = listens
+shell-status-last-answer = Last answer: { $answer }
+shell-status-live-off = Live off
+shell-status-live-off-says = Live is off: nobody watches whether the part hangs still
+shell-status-motion-unknown = No frames arrive: whether the part hangs still is not known
+shell-status-no-frame = No frame has been captured yet
+shell-status-frame-age = Age of the frame on the screen: { $age }
+shell-status-speed = This computer inspects { $inspected } of { $frames } frames
+shell-status-speed-unknown = The speed of this computer is measured while Live is on
+shell-status-drift = drift
 
 ## The source
 

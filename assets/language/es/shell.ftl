@@ -108,26 +108,26 @@ shell-days = { $num ->
         [one] 1 día
        *[other] { $num } días
     }
-status-from-pairs = calibración mano-ojo
-status-made-ago = { $kind }, hace { $age }
-status-edited = modificada
-status-no-flange-pose = sin pose de la brida
-status-not-calibrated = sin calibrar
-status-robots-off = robots apagados
-status-robots-off-says = No se responde a ningún robot: las respuestas están apagadas
-status-not-answered = sin respuesta
-status-no-frames = sin imágenes
-status-robots-start = iniciando
-status-listens = a la escucha
-status-last-answer = Última respuesta: { $answer }
-status-live-off = En vivo apagado
-status-live-off-says = En vivo está apagado: no se vigila si la pieza está inmóvil
-status-motion-unknown = No llegan imágenes: no se sabe si la pieza está inmóvil
-status-no-frame = Todavía no se ha capturado ninguna imagen
-status-frame-age = Antigüedad de la imagen en pantalla: { $age }
-status-speed = Este ordenador inspecciona { $inspected } de { $frames } imágenes
-status-speed-unknown = La velocidad de este ordenador se mide mientras En vivo está activo
-status-drift = deriva
+shell-status-from-pairs = calibración mano-ojo
+shell-status-made-ago = { $kind }, hace { $age }
+shell-status-edited = modificada
+shell-status-no-flange-pose = sin pose de la brida
+shell-status-not-calibrated = sin calibrar
+shell-status-robots-off = robots apagados
+shell-status-robots-off-says = No se responde a ningún robot: las respuestas están apagadas
+shell-status-not-answered = sin respuesta
+shell-status-no-frames = sin imágenes
+shell-status-robots-start = iniciando
+shell-status-listens = a la escucha
+shell-status-last-answer = Última respuesta: { $answer }
+shell-status-live-off = En vivo apagado
+shell-status-live-off-says = En vivo está apagado: no se vigila si la pieza está inmóvil
+shell-status-motion-unknown = No llegan imágenes: no se sabe si la pieza está inmóvil
+shell-status-no-frame = Todavía no se ha capturado ninguna imagen
+shell-status-frame-age = Antigüedad de la imagen en pantalla: { $age }
+shell-status-speed = Este ordenador inspecciona { $inspected } de { $frames } imágenes
+shell-status-speed-unknown = La velocidad de este ordenador se mide mientras En vivo está activo
+shell-status-drift = deriva
 
 ## The source
 

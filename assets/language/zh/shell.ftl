@@ -93,26 +93,26 @@ shell-truth-nothing = 无（空工位）
 ## The status bar
 
 shell-days = { $num } 天
-status-from-pairs = 手眼标定
-status-made-ago = { $kind }，{ $age }前
-status-edited = 已修改
-status-no-flange-pose = 无法兰位姿
-status-not-calibrated = 未标定
-status-robots-off = 未应答机器人
-status-robots-off-says = 没有机器人得到应答：应答已关闭
-status-not-answered = 无应答
-status-no-frames = 无帧
-status-robots-start = 正在启动
-status-listens = 监听中
-status-last-answer = 上次应答：{ $answer }
-status-live-off = “实时”已关
-status-live-off-says = “实时”已关闭：不监视零件是否静止
-status-motion-unknown = 没有收到帧：不知道零件是否静止
-status-no-frame = 尚未采集任何帧
-status-frame-age = 屏幕上的帧的时间：{ $age }前
-status-speed = 此计算机检测了 { $frames } 帧中的 { $inspected } 帧
-status-speed-unknown = “实时”开启时测量此计算机的速度
-status-drift = 漂移
+shell-status-from-pairs = 手眼标定
+shell-status-made-ago = { $kind }，{ $age }前
+shell-status-edited = 已修改
+shell-status-no-flange-pose = 无法兰位姿
+shell-status-not-calibrated = 未标定
+shell-status-robots-off = 未应答机器人
+shell-status-robots-off-says = 没有机器人得到应答：应答已关闭
+shell-status-not-answered = 无应答
+shell-status-no-frames = 无帧
+shell-status-robots-start = 正在启动
+shell-status-listens = 监听中
+shell-status-last-answer = 上次应答：{ $answer }
+shell-status-live-off = “实时”已关
+shell-status-live-off-says = “实时”已关闭：不监视零件是否静止
+shell-status-motion-unknown = 没有收到帧：不知道零件是否静止
+shell-status-no-frame = 尚未采集任何帧
+shell-status-frame-age = 屏幕上的帧的时间：{ $age }前
+shell-status-speed = 此计算机检测了 { $frames } 帧中的 { $inspected } 帧
+shell-status-speed-unknown = “实时”开启时测量此计算机的速度
+shell-status-drift = 漂移
 
 ## The source
 

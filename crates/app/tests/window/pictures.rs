@@ -197,7 +197,12 @@ fn compare_as_it_is(harness: &mut WindowHarness, name: &str) {
         rect.min.x = rect.min.x.min(rect.max.x - 64.0);
         paint_over(&mut picture, rect);
     }
-    for real in ["Age of the frame on the screen", "This computer inspects"] {
+    // The age of the calibration, too.
+    for real in [
+        "Age of the frame on the screen",
+        "This computer inspects",
+        "Calibrated by",
+    ] {
         for node in harness.query_all_by_label_contains(real) {
             paint_over(&mut picture, node.rect());
         }

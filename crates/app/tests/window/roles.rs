@@ -209,8 +209,9 @@ fn another_source_is_the_engineers_to_choose() {
     harness.get_by_label_contains("Source · ").click();
     harness.run_steps(8);
     // The list names where its entries came from.
-    let cells = harness.get_all_by_label("Simulated cell");
-    cells.last().expect("the entry of the menu").click();
+    let mut cells = harness.get_all_by_label("Simulated cell");
+    cells.next().expect("the entry of the menu").click();
+    drop(cells);
     harness.run_steps(4);
     harness.get_by_label("Radiator support").click();
     settle(&mut harness);

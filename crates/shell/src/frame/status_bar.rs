@@ -175,7 +175,7 @@ fn calibration(session: &Session, robot: &RobotCell) -> Item {
             let calibration = &in_use.calibration;
             let kind = match calibration.origin {
                 Origin::ByHand => text!("robot-entered-by-hand"),
-                Origin::HandEye(_) => text!("status-from-pairs"),
+                Origin::HandEye(_) => text!("shell-status-from-pairs"),
             };
             let age = written_age(age_of(calibration.made_at.into()));
             let name = match calibration.name.as_str() {
@@ -183,7 +183,7 @@ fn calibration(session: &Session, robot: &RobotCell) -> Item {
                 name => name,
             };
             let says = text!("shell-calibrated-by", name = described(&frame.name));
-            let made = text!("status-made-ago", kind = &kind, age = &age);
+            let made = text!("shell-status-made-ago", kind = &kind, age = &age);
             new(Mark::Runs, format!("{name} · {age}"), says).then(made)
         }
         (Some(frame), None) => {
@@ -193,18 +193,18 @@ fn calibration(session: &Session, robot: &RobotCell) -> Item {
         }
         (None, Some(in_use)) if in_use.is_edited => new(
             Mark::Look,
-            text!("status-edited"),
+            text!("shell-status-edited"),
             text!("shell-calibration-edited"),
         )
         .then(text!("robot-edited-advice")),
         (None, Some(_)) => new(
             Mark::Look,
-            text!("status-no-flange-pose"),
+            text!("shell-status-no-flange-pose"),
             text!("shell-no-flange-pose"),
         ),
         (None, None) => new(
             Mark::Open,
-            text!("status-not-calibrated"),
+            text!("shell-status-not-calibrated"),
             text!("shell-not-calibrated"),
         ),
     };
@@ -217,17 +217,17 @@ fn robots(session: &Session, robot: &RobotCell) -> Item {
         None => Item::new(
             Topic::Robots,
             Mark::Open,
-            text!("status-robots-off"),
-            text!("status-robots-off-says"),
+            text!("shell-status-robots-off"),
+            text!("shell-status-robots-off-says"),
         ),
         Some((mark, words)) => {
             let last = answering.status().and_then(|status| status.last.as_ref());
             let word = match (mark, last) {
-                (Mark::Bad, _) => text!("status-not-answered"),
-                (Mark::Look, _) => text!("status-no-frames"),
-                (Mark::Open, _) => text!("status-robots-start"),
+                (Mark::Bad, _) => text!("shell-status-not-answered"),
+                (Mark::Look, _) => text!("shell-status-no-frames"),
+                (Mark::Open, _) => text!("shell-status-robots-start"),
                 (_, Some(last)) => format!("{} {}", clock(last.at), last.answer.verdict.name()),
-                (_, None) => text!("status-listens"),
+                (_, None) => text!("shell-status-listens"),
             };
             // In the words in which the operator's view tells it in large letters.
             let told = operators_warning(session).filter(|_| session.role == UserRole::Operator);
@@ -241,7 +241,7 @@ fn robots(session: &Session, robot: &RobotCell) -> Item {
                 (None, _) => String::new(),
                 (Some(_), None) => text!("robot-no-trigger"),
                 (Some(_), Some(last)) => {
-                    text!("status-last-answer", answer = in_words(last))
+                    text!("shell-status-last-answer", answer = in_words(last))
                 }
             };
             item.then(problem.unwrap_or_default())
@@ -258,8 +258,8 @@ fn motion(session: &Session) -> Item {
         let can_follow = session.source.followed().is_some();
         let off = new(
             Mark::Open,
-            text!("status-live-off"),
-            text!("status-live-off-says"),
+            text!("shell-status-live-off"),
+            text!("shell-status-live-off-says"),
         );
         return off
             .then(text!("shell-live-says"))
@@ -271,7 +271,7 @@ fn motion(session: &Session) -> Item {
             let says = format!("{} · {what}", live::name(&session.source));
             new(mark, what, says)
         }
-        None => new(Mark::Open, "–".into(), text!("status-motion-unknown")),
+        None => new(Mark::Open, "–".into(), text!("shell-status-motion-unknown")),
     };
     item.leads_to(is_elsewhere.then_some(Action::GoTo(WorkspaceKind::Inspect)))
 }
@@ -280,10 +280,10 @@ fn age(session: &Session) -> Item {
     let new = |mark, word, says| Item::new(Topic::Age, mark, word, says);
     let capture = (!session.is_live()).then_some(Action::Capture);
     let Some(inspected) = session.latest(|_| true) else {
-        return new(Mark::Open, "–".into(), text!("status-no-frame")).leads_to(capture);
+        return new(Mark::Open, "–".into(), text!("shell-status-no-frame")).leads_to(capture);
     };
     let age = written_age(age_of(inspected.captured_at));
-    let says = text!("status-frame-age", age = &age);
+    let says = text!("shell-status-frame-age", age = &age);
     let item = match session.currency(inspected) {
         Some(doubt @ (Doubt::Old | Doubt::ClockAhead(_) | Doubt::SourceLost)) => {
             new(Mark::Look, age, says)
@@ -300,10 +300,10 @@ fn speed(session: &Session) -> Item {
     let status = session.live.status.as_ref().filter(|_| session.is_live());
     let Some((status, rate)) = status.and_then(|status| Some((status, status.inspection_rate?)))
     else {
-        return new(Mark::Open, "–".into(), text!("status-speed-unknown"));
+        return new(Mark::Open, "–".into(), text!("shell-status-speed-unknown"));
     };
     let (inspected, frames) = (rate.num_inspected, rate.num_frames);
-    let says = text!("status-speed", inspected = inspected, frames = frames);
+    let says = text!("shell-status-speed", inspected = inspected, frames = frames);
     let is_slow = rate.is_slow() || status.held_up_by.is_some();
     let mark = if is_slow { Mark::Look } else { Mark::Runs };
     let item = new(mark, format!("{inspected}/{frames}"), says).then(live::figures(status));
@@ -323,7 +323,7 @@ fn drift(session: &Session) -> Option<Item> {
     let item = Item::new(
         Topic::Drift,
         Mark::Look,
-        text!("status-drift"),
+        text!("shell-status-drift"),
         warning.what,
     );
     let to_statistics = Action::Tell(Event::Drift(first.part.clone()));
@@ -643,9 +643,9 @@ mod tests {
             language.make_current();
             let shown = words(1024.0);
             let all = [
-                "status-not-calibrated",
-                "status-robots-off",
-                "status-live-off",
+                "shell-status-not-calibrated",
+                "shell-status-robots-off",
+                "shell-status-live-off",
             ];
             let all = all.map(ui::language::plain);
             Language::English.make_current();
