@@ -24,7 +24,7 @@ impl NamedMesh {
         Some(high - low)
     }
 
-    /// Returns the longest side of that box, by which body parts are told from screws; 0 if it cannot be read.
+    /// Returns the longest side of that box, which distinguishes body parts from screws; 0 if it cannot be read.
     pub fn longest_side(&self) -> f32 {
         self.size().map_or(0.0, |sides| sides.max())
     }

@@ -335,8 +335,8 @@ fn a_robot_that_servoes_is_moved_within_the_limits_of_the_page_servo() {
     });
     report(&mut harness, &Truth::Part("grille".into()));
     let reply = servo("", &reply[12..18].join(" "));
-    let told = [&*reply[1], &*reply[18]];
-    assert_eq!(told, ["stay", "reported_wrong"], "{reply:?}");
+    let [answer, reason] = [&*reply[1], &*reply[18]];
+    assert_eq!([answer, reason], ["stay", "reported_wrong"], "{reply:?}");
     assert_eq!(reply[12], "", "{reply:?}");
     report(&mut harness, &Truth::Part("fender".into()));
 

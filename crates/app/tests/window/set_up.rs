@@ -68,7 +68,7 @@ pub(crate) fn settle(harness: &mut WindowHarness) {
     harness.check_accessibility();
 }
 
-/// Lets the time of so many steps pass. As on a screen, only the frames that the window asks for are drawn, and the last.
+/// Advances the clock by this many steps. Draws the frames that the window asks for, as a screen would, and the last one.
 pub(crate) fn let_pass(harness: &mut WindowHarness, num_steps: u32) {
     // One frame for each event that waits.
     harness.step();

@@ -26,10 +26,10 @@ use inspection::pipeline::{AcceptParams, Recipe};
 
 /// Maximum number of poses read; each requires parsing the JSON line of its inspection.
 pub const MAX_POSES: usize = 2000;
-/// Number of poses that tell whether a part will be refused: several times [`TREND_WINDOW`](super::trend::TREND_WINDOW), as some
+/// Number of poses from which to predict whether a part will be refused: several times [`TREND_WINDOW`](super::trend::TREND_WINDOW), as some
 /// may be of another recipe or source.
 pub(super) const POSES_FOR_WARNING: usize = 400;
-/// Smallest number of inspections whose spread is told.
+/// Fewest inspections for which a spread is given.
 pub const LEAST_FOR_SPREAD: usize = 3;
 /// How near to 0 and 1 a score comes; beyond, its log odds would be those of its last digits.
 const SCORE_MARGIN: f64 = 1e-6;
@@ -89,7 +89,7 @@ impl PoseRecord {
         })
     }
 
-    /// Reads an inspection as it is written; `None` unless it was accepted with a score and a pose that can be read.
+    /// Reads an inspection from its record; `None` unless it was accepted with a score and a readable pose.
     pub fn of_record(record: &Record) -> Option<Self> {
         let Record { summary, detail } = record;
         let [score, _] = summary.score?;

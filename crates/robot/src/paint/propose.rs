@@ -126,18 +126,8 @@ pub(super) mod tests {
     use super::*;
     use crate::paint::built_in_coat;
     use inspection::library::{LibraryFolder, StoredPart};
+    use simulate::PartKind;
     use stages::reference::ReferenceParams;
-
-    const SHIPPED: [&str; 8] = [
-        "back_bumper",
-        "back_door",
-        "fender",
-        "front_bumper",
-        "front_door",
-        "grille",
-        "radiator_support",
-        "trunk_lid",
-    ];
 
     fn shipped_parts() -> LibraryFolder {
         let folder =
@@ -147,10 +137,10 @@ pub(super) mod tests {
 
     /// A shipped part, and what is proposed to paint it with the primer; once for all tests.
     pub(crate) fn proposed(name: &str) -> &'static (StoredPart, Proposal) {
-        static PROPOSED: [OnceLock<(StoredPart, Proposal)>; SHIPPED.len()] =
-            [const { OnceLock::new() }; SHIPPED.len()];
-        let index = SHIPPED.iter().position(|shipped| *shipped == name);
-        PROPOSED[index.expect("a shipped part")].get_or_init(|| {
+        static PROPOSED: [OnceLock<(StoredPart, Proposal)>; PartKind::ALL.len()] =
+            [const { OnceLock::new() }; PartKind::ALL.len()];
+        let kind = PartKind::from_name(name).expect("a shipped part");
+        PROPOSED[kind as usize].get_or_init(|| {
             let read = shipped_parts().read(name, &ReferenceParams::default());
             let part = read.expect("listed").expect("read");
             let (coverage, side) = (part.meta.coverage, part.meta.side);
@@ -177,8 +167,10 @@ pub(super) mod tests {
 
     #[test]
     fn the_shipped_parts_are_painted_within_tolerance() {
-        assert_eq!(shipped_parts().names().expect("listed"), SHIPPED);
-        for name in SHIPPED {
+        let mut names = PartKind::ALL.map(PartKind::name);
+        names.sort_unstable();
+        assert_eq!(shipped_parts().names().expect("listed"), names);
+        for name in names {
             let (_, found) = proposed(name);
             let film = &found.film.figures;
             // Ribs of the grille have flanks that neighbouring ribs hide even from the leaned gun.

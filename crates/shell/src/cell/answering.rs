@@ -501,7 +501,7 @@ pub(crate) fn in_words(last: &LastAnswer) -> String {
         reason => format!("{} ({reason})", answer.verdict.name()),
     };
     let part = (!answer.part.is_empty()).then(|| answer.part.clone());
-    // What a robot that servoes is told has a number too, but the window does not learn it.
+    // Answers to SERVO are numbered too, but the window does not receive their numbers.
     let number =
         (answer.sequence > 0).then(|| text!("robot-answer-number", number = answer.sequence));
     let age = answer

@@ -229,10 +229,10 @@ fn robots(session: &Session, robot: &RobotCell) -> Item {
                 (_, Some(last)) => format!("{} {}", clock(last.at), last.answer.verdict.name()),
                 (_, None) => text!("shell-status-listens"),
             };
-            // In the words in which the operator's view tells it in large letters.
-            let told = operators_warning(session).filter(|_| session.role == UserRole::Operator);
-            let (says, advice) = match told {
-                Some(told) => (told, String::new()),
+            // The operator's view shows the same words in large letters.
+            let warning = operators_warning(session).filter(|_| session.role == UserRole::Operator);
+            let (says, advice) = match warning {
+                Some(warning) => (warning, String::new()),
                 None => (words, answering.advice(session)),
             };
             let item = Item::new(Topic::Robots, mark, word, says);

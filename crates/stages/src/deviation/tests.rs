@@ -77,16 +77,18 @@ fn smoothest(patches: &[PatchDeviation]) -> PatchDeviation {
     *smoothest.expect("a patch in the middle of the part").0
 }
 
-#[test]
-fn a_dent_is_found_where_it_is_and_nothing_on_a_good_part() {
+/// The trunk lid, its mesh, its pose and its deviation without a dent.
+fn good_trunk_lid() -> (Reference, TriangleMesh, RigidTransform, Deviation) {
     let (reference, mesh) = trunk_lid();
     let camera_from_part = RigidTransform::translation(0.0, 0.0, 1.2);
-    let good = measured(
-        &reference,
-        &frames_of(&mesh, camera_from_part),
-        camera_from_part,
-    );
-    let good = good.expect("measured");
+    let frames = frames_of(&mesh, camera_from_part);
+    let good = measured(&reference, &frames, camera_from_part).expect("measured");
+    (reference, mesh, camera_from_part, good)
+}
+
+#[test]
+fn a_dent_is_found_where_it_is_and_nothing_on_a_good_part() {
+    let (reference, mesh, camera_from_part, good) = good_trunk_lid();
     assert!(good.regions.is_empty(), "{:?}", good.regions);
     assert!(good.seen > 0.6, "{}", good.seen);
     assert!((0.0001..0.0015).contains(&good.noise.0), "{:?}", good.noise);
@@ -128,14 +130,7 @@ fn a_dent_is_found_where_it_is_and_nothing_on_a_good_part() {
 
 #[test]
 fn a_hole_is_missing_surface() {
-    let (reference, mesh) = trunk_lid();
-    let camera_from_part = RigidTransform::translation(0.0, 0.0, 1.2);
-    let good = measured(
-        &reference,
-        &frames_of(&mesh, camera_from_part),
-        camera_from_part,
-    );
-    let good = good.expect("measured");
+    let (reference, mesh, camera_from_part, good) = good_trunk_lid();
     let place = smoothest(&good.patches).at;
     let dent = Dent {
         centre: place.cast(),

@@ -9,10 +9,10 @@ use capture::{CaptureError, RobotConnection, RobotRequest, SourceSpec};
 use geometry::error::lock;
 
 /// The clock of a run. It never goes back.
-pub(super) struct RunClock(Mutex<Told>);
+pub(super) struct RunClock(Mutex<ClockReading>);
 
 /// What time it was last.
-struct Told {
+struct ClockReading {
     /// Whom to ask; `None` for this computer's clock, by which the time also goes on once a robot does not answer: so that the run
     /// ends for want of frames or reports, as with a real robot.
     robot: Option<RobotConnection>,
@@ -20,7 +20,7 @@ struct Told {
     time: Duration,
 }
 
-impl Told {
+impl ClockReading {
     fn ask(&mut self, request: RobotRequest) -> Option<Duration> {
         let reply = self.robot.as_mut()?.ask(request);
         if reply.is_err() {
@@ -40,34 +40,36 @@ impl Told {
 impl RunClock {
     /// The clock for this camera, from now on.
     pub(super) fn of_source(source: &SourceSpec) -> Result<Self, CaptureError> {
-        let mut told = Told {
+        let mut reading = ClockReading {
             robot: None,
             at: Instant::now(),
             time: Duration::ZERO,
         };
         if let SourceSpec::SimulatedRobot(at) = source {
             let mut robot = RobotConnection::open(*at)?;
-            told.time = robot.ask(RobotRequest::Time)?.at;
-            told.robot = Some(robot);
+            reading.time = robot.ask(RobotRequest::Time)?.at;
+            reading.robot = Some(robot);
         }
-        Ok(Self(Mutex::new(told)))
+        Ok(Self(Mutex::new(reading)))
     }
 
     /// The time.
     pub(super) fn now(&self) -> Duration {
-        let mut told = lock(&self.0);
-        let asked = told.ask(RobotRequest::Time);
+        let mut reading = lock(&self.0);
+        let asked = reading.ask(RobotRequest::Time);
         let now = Instant::now();
-        let time = asked.unwrap_or_else(|| told.time_at(now)).max(told.time);
-        (told.at, told.time) = (now, time);
+        let time = asked
+            .unwrap_or_else(|| reading.time_at(now))
+            .max(reading.time);
+        (reading.at, reading.time) = (now, time);
         time
     }
 
     /// When the frame arrived that has this number, came at this moment, and has been inspected by now.
     pub(super) fn arrived(&self, number: u64, at: Instant) -> Duration {
-        let mut told = lock(&self.0);
-        let asked = told.ask(RobotRequest::Inspected(number));
-        asked.unwrap_or_else(|| told.time_at(at))
+        let mut reading = lock(&self.0);
+        let asked = reading.ask(RobotRequest::Inspected(number));
+        asked.unwrap_or_else(|| reading.time_at(at))
     }
 }
 

@@ -411,16 +411,8 @@ mod tests {
         }
     }
 
-    #[test]
-    fn of_the_last_parts_one_that_no_robot_was_to_act_on_is_not_green() {
-        let mut session = Session::default();
-        session.shift.since = Some(geometry::clock::zoned_now());
-        for doubts in [&[][..], &["moving".to_owned()]] {
-            let mut row = inspected_cell(CellChoice::InTurn, 1).entry.record.summary;
-            row.title = format!("Door with {} doubts", doubts.len());
-            row.noted.robot_doubts = doubts.to_vec();
-            session.shift.last.push(row);
-        }
+    /// The column beside the picture, before any inspection.
+    fn drawn_column(session: &Session) -> (egui::FullOutput, &'static Theme) {
         let ctx = egui::Context::default();
         Theme::install_fonts(&ctx);
         Theme::install(ThemeChoice::default(), &ctx);
@@ -432,8 +424,22 @@ mod tests {
         let banner = Banner::new(Tone::Open, "", "", "");
         let output = ctx.run_ui(input, |ui| {
             theme = Some(Theme::of(ui));
-            column(ui, &banner, &session, &mut Vec::new());
+            column(ui, &banner, session, &mut Vec::new());
         });
+        (output, theme.expect("drawn"))
+    }
+
+    #[test]
+    fn of_the_last_parts_one_that_no_robot_was_to_act_on_is_not_green() {
+        let mut session = Session::default();
+        session.shift.since = Some(geometry::clock::zoned_now());
+        for doubts in [&[][..], &["moving".to_owned()]] {
+            let mut row = inspected_cell(CellChoice::InTurn, 1).entry.record.summary;
+            row.title = format!("Door with {} doubts", doubts.len());
+            row.noted.robot_doubts = doubts.to_vec();
+            session.shift.last.push(row);
+        }
+        let (output, theme) = drawn_column(&session);
         let colour_of = |words: &str| {
             let mut texts = output.shapes.iter().filter_map(|drawn| match &drawn.shape {
                 Shape::Text(text) if text.galley.text().starts_with(words) => {
@@ -443,7 +449,6 @@ mod tests {
             });
             texts.next_back()
         };
-        let theme = theme.expect("drawn");
         assert_eq!(colour_of("Door with 0"), Some(theme.accepted));
         assert_eq!(colour_of("Door with 1"), Some(theme.warning));
         assert!(colour_of("Not for robots: the part was moving").is_some());
@@ -454,15 +459,7 @@ mod tests {
     fn that_robots_get_no_pose_is_written_for_the_distance() {
         let mut session = Session::default();
         session.answering.is_on = true;
-        let ctx = egui::Context::default();
-        Theme::install_fonts(&ctx);
-        Theme::install(ThemeChoice::default(), &ctx);
-        let input = RawInput {
-            screen_rect: Some(Rect::from_min_size(Pos2::ZERO, vec2(COLUMN[1], 600.0))),
-            ..RawInput::default()
-        };
-        let banner = Banner::new(Tone::Open, "", "", "");
-        let output = ctx.run_ui(input, |ui| column(ui, &banner, &session, &mut Vec::new()));
+        let (output, _) = drawn_column(&session);
         let warning = operators_warning(&session).expect("no pose");
         let is_large = output.shapes.iter().any(|drawn| {
             matches!(&drawn.shape, Shape::Text(text) if text.galley.text() == warning

@@ -63,8 +63,8 @@ pub(super) struct Servoing {
 }
 
 impl Servoing {
-    /// The moves of the run that this request of a client goes on with or begins, or what the robot is told instead. A run with
-    /// other inputs ends. A new one reads the files of the page again: they may have changed under the same names.
+    /// Returns the run that this request continues or starts, or why the robot must stay. A run ends when its inputs change. A new
+    /// one reads the files named on the page again, because their contents may have changed.
     pub(super) fn moves(
         &mut self,
         (request, client): (&ServoRequest, u64),
