@@ -325,9 +325,10 @@ impl Banner {
             let surface = &inspected.inspection.surface;
             let verdict = surface.as_ref().map(|check| check.verdict);
             if let Some((reason, advice)) = surface_complaint(&inspected.inspection) {
-                let tone = match verdict {
-                    Some(SurfaceVerdict::Rework | SurfaceVerdict::Scrap) => Tone::NotOk,
-                    Some(SurfaceVerdict::Ok | SurfaceVerdict::NotJudged) | None => Tone::Recognised,
+                let tone = if verdict.is_some_and(SurfaceVerdict::is_bad) {
+                    Tone::NotOk
+                } else {
+                    Tone::Recognised
                 };
                 return Self::new(tone, title, reason, advice);
             }
